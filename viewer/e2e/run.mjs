@@ -15,6 +15,7 @@ import { browser, next, open, periplus, servePage, until, port } from './lib.mjs
 import { navigate } from './navigate.mjs';
 import { panels } from './panels.mjs';
 import { replay } from './replay.mjs';
+import { robots } from './robots.mjs';
 import { tutorials } from './tutorials.mjs';
 import { use } from './use.mjs';
 
@@ -186,6 +187,7 @@ try {
   await replay(chrome, pages.url, out, attempt);
   await edit(chrome, pages.url, attempt);
   await demo(chrome, pages.url, attempt);
+  await robots(chrome, pages.url, attempt);
 } finally {
   await chrome.close();
   pages.stop();

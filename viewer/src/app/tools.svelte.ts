@@ -337,14 +337,15 @@ export class Tools {
     if (!pressed || !mayChoose || !app.robots.isMany || this.manipulator.isDragging) return;
     const movedPx = Math.hypot(event.clientX - pressed.clientX, event.clientY - pressed.clientY);
     if (movedPx > CLICK_PX) return;
-    let at: Object3D | null = this.hit(event)?.object ?? null;
-    for (; at; at = at.parent) {
+    // The first model counts: points of a lidar lie on other robots, and maps and paths are no models.
+    for (const { object } of this.solids(event)) {
+      let at: Object3D | null = object;
+      while (at && !at.userData.entity && !at.userData.robotTopic) at = at.parent;
+      if (!at) continue;
       const { entity: model, robotTopic: topic } = at.userData as Record<string, string>;
-      const robot = model || topic ? app.robots.find({ model, topic }) : undefined;
-      if (robot) {
-        app.robots.choose(robot.namespace);
-        return;
-      }
+      const robot = app.robots.find({ model, topic });
+      if (robot) app.robots.choose(robot.namespace);
+      return;
     }
   }
 
@@ -525,6 +526,17 @@ export class Tools {
       .setZ(Math.max(a.z, b.z) + 0.15);
     this.marks.add(caption);
     this.app.stage!.invalidate();
+  }
+
+  /** Surfaces under the mouse, the nearest first. */
+  private solids(event: PagePoint): Intersection[] {
+    const { view, content } = this.app.stage!;
+    const all: Object3D[] = [];
+    content.traverseVisible((object) => {
+      if (object.userData.isMark || !('isMesh' in object)) return;
+      if ((object as Mesh).geometry?.getAttribute('position')) all.push(object);
+    });
+    return view.ray(event.clientX, event.clientY).intersectObjects(all, false);
   }
 
   /** First object under the mouse; a point of a cloud if it is near the mouse. */

@@ -129,7 +129,7 @@ pub fn run(words: Vec<String>, own_command: Vec<String>, interpreter: Option<Str
     let command = options.command.unwrap_or_else(|| Command::Demo(DemoOptions::default()));
     let outcome = match command {
         Command::Sim(options) => sim::run(&options, ros, recorded),
-        Command::Launch(options) => launch::run(&options, ros),
+        Command::Launch(options) => launch::run(&options, ros, recorded),
         Command::Teleop(options) => teleop::run(&options, ros),
         Command::View(options) => view::run(&options, ros),
         Command::Localize(options) => localize::run(&options, ros),
