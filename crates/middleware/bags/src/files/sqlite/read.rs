@@ -71,9 +71,9 @@ impl Database {
             self.ros_distro = distro.unwrap_or_default();
         }
         if has("metadata", "metadata") {
-            let query = "SELECT metadata FROM metadata ORDER BY id DESC LIMIT 1";
-            let stored: Option<String> =
-                self.connection.query_row(query, [], |row| row.get(0)).optional()?;
+            let query = "SELECT metadata FROM metadata ORDER BY rowid DESC LIMIT 1";
+            // A damaged table loses the facts, not the messages.
+            let stored = self.connection.query_row(query, [], |row| text(row, 0)).ok();
             self.custom_data =
                 stored.and_then(|text| embedded_custom_data(&text)).unwrap_or_default();
         }
@@ -392,7 +392,7 @@ fn open_cut(uri: &str, flags: OpenFlags) -> rusqlite::Result<Connection> {
 /// Columns of the tables; views are ignored.
 fn tables(connection: &Connection) -> rusqlite::Result<BTreeMap<String, Vec<String>>> {
     let mut tables = BTreeMap::new();
-    for name in ["schema", "topics", "messages", "message_definitions"] {
+    for name in ["schema", "metadata", "topics", "messages", "message_definitions"] {
         let query = "SELECT count(*) FROM sqlite_master WHERE type = 'table' AND name = ?1 AND \
                      sql NOT LIKE 'CREATE VIRTUAL%'";
         let count: i64 = connection.query_row(query, [name], |row| row.get(0))?;
