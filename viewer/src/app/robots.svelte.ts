@@ -22,7 +22,7 @@ export class Robots {
   /** Namespace that the user chose; kept while that robot is absent. */
   private wanted: string | undefined = $state();
   private key = '';
-  /** Subscriptions to the transforms of robots that have topics of their own for them. */
+  /** Subscriptions to the transforms of robots that have separate topics for them. */
   private leave = new Map<string, () => void>();
   /** Roots of trees that the page has put into the simulated world. */
   private anchored = new Set<string>();

@@ -1,4 +1,4 @@
-/** Checks that a value fits to a message type, with sentences that say what does not. */
+/** Checks that a value fits to a message type, with a sentence for each part that does not. */
 import { t } from '../texts/language.svelte';
 import { definitionOf, type Definition, type Field, type Schema } from './schema';
 

@@ -9,7 +9,7 @@ export interface Robot {
   namespace: string;
   /** Prefix of its frames on this page: empty for none, otherwise `robot1/`. */
   framePrefix: string;
-  /** True if its transforms are on topics of its own, `/robot1/tf`: the prefix is then added by the page. */
+  /** True if its transforms are on separate topics, `/robot1/tf`: the prefix is then added by the page. */
   hasOwnTf: boolean;
   /** Topic of its URDF. */
   description?: string;
@@ -33,7 +33,7 @@ export interface Wire {
   frames: readonly string[];
 }
 
-/** Frames that robots with transforms of their own share: Nav2 gives each of them the same map. */
+/** Frames that robots with separate transforms share: Nav2 gives each of them the same map. */
 const SHARED_FRAMES: readonly string[] = ['map', 'world', 'earth'];
 /** Node name under which all pages appear. */
 const OWN_NODE = '/viewers';

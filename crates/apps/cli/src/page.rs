@@ -6,6 +6,7 @@ use std::path::Path;
 use clap::Args;
 use periplus_session::page::{DEFAULT_PORT, default_address};
 use periplus_session::{PageContext, PageSettings};
+use periplus_web::foxglove::JobError;
 
 use crate::report::report_html;
 
@@ -50,8 +51,8 @@ impl PageOptions {
 }
 
 /// Writes the reports that the page offers.
-fn report(paths: &[&Path]) -> Result<String, String> {
-    report_html(paths).map_err(|error| error.to_string())
+fn report(paths: &[&Path]) -> Result<String, JobError> {
+    report_html(paths).map_err(|error| JobError::Failed(error.to_string()))
 }
 
 /// Parses `ADDRESS:PORT`, one of them, or `localhost`.

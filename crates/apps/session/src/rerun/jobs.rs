@@ -12,9 +12,9 @@ use crate::difference::{RecordingDifference, TopicDifference, compare_topics};
 
 use super::{RerunError, RerunKind, RerunRequest, job_parameters, rerun};
 
-/// Writes a report of one recording, or of two, as an HTML document; the error is a sentence for the
-/// user. The command line has the reports, which needs more than a session does.
-pub type ReportWriter = fn(&[&Path]) -> Result<String, String>;
+/// Writes a report of one recording, or of two, as an HTML document. The command line has the
+/// reports, which need more than a session does.
+pub type ReportWriter = fn(&[&Path]) -> Result<String, JobError>;
 
 /// Runs the jobs of the page.
 pub struct RerunJobs {
@@ -72,7 +72,7 @@ impl Jobs for RerunJobs {
         let writer = self.report.ok_or_else(|| {
             failed("this program writes no reports; use `periplus report` in a terminal")
         })?;
-        writer(paths).map_err(JobError::Failed)
+        writer(paths)
     }
 
     fn difference(
