@@ -277,7 +277,7 @@ fn compare_values(path: &str, first: &Value, second: &Value, out: &mut Vec<Value
                 match (first.get(index), second.get(index)) {
                     (Some(a), Some(b)) => compare_values(&inner, a, b, out),
                     (a, b) => {
-                        out.push(ValueDifference { path: inner, values: [a, b].map(text_of) })
+                        out.push(ValueDifference { path: inner, values: [a, b].map(text_of) });
                     }
                 }
             }
