@@ -16,6 +16,7 @@ import { meshes } from './meshes.mjs';
 import { navigate } from './navigate.mjs';
 import { panels } from './panels.mjs';
 import { replay } from './replay.mjs';
+import { robots } from './robots.mjs';
 import { tutorials } from './tutorials.mjs';
 import { use } from './use.mjs';
 
@@ -188,6 +189,7 @@ try {
   await replay(chrome, pages.url, out, attempt);
   await edit(chrome, pages.url, attempt);
   await demo(chrome, pages.url, attempt);
+  await robots(chrome, pages.url, attempt);
 } finally {
   await chrome.close();
   pages.stop();

@@ -23,6 +23,7 @@ const LAYOUT: Layout = {
   floating: [],
   active: 'b',
   offered: [],
+  robot: '/r1',
 };
 
 describe('arrangements', () => {

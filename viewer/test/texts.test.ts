@@ -48,7 +48,8 @@ describe('texts', () => {
       return codes.some((one) => whole.test(one) && short.test(one));
     };
     expect(paths(en).filter((path) => !isUsed(path))).toEqual([]);
-  });
+    // Reads all sources for each text: slow beside other programs.
+  }, 60_000);
 });
 
 /** Literal texts of more than one word in the markup of a component. */

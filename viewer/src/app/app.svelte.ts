@@ -18,6 +18,7 @@ import { estimatorsOf } from './estimators';
 import { TEXTS } from './texts';
 import { Recordings } from './recordings.svelte';
 import type { Replay } from './replay.svelte';
+import { Robots } from './robots.svelte';
 import { mapTruths, type MapTruth } from './truth';
 import { Viewport } from './viewport.svelte';
 import type { Workbench } from './workbench.svelte';
@@ -96,6 +97,8 @@ export class App {
     asset: (uri) => this.client.asset(uri),
     mesh: (uri) => this.client.mesh(uri),
   });
+  /** The robots, and the one that tools and panels act on. */
+  readonly robots: Robots;
   private readonly sensors = new SensorFrames();
   private worldSubscriptions: (() => void)[] = [];
   private publishers = new Map<string, (message: Message) => void>();
@@ -126,6 +129,7 @@ export class App {
     );
     this.feed = new Feed(this.client);
     this.recordings = new Recordings(this);
+    this.robots = new Robots(this);
     this.active = this.addViewport();
     // Both sources have the same time, but one may arrive later; without this, time would jump back.
     this.feed.subscribe('/clock', (message) => {
@@ -134,12 +138,21 @@ export class App {
       if (!isToldAnyhow) this.time(seconds(message.clock as never));
     });
     for (const isStatic of [false, true]) {
-      this.feed.subscribe(isStatic ? '/tf_static' : '/tf', (message, _topic, _bytes, timeS) => {
-        const now = timeS === undefined ? performance.now() : timeS * 1000;
-        for (const one of message.transforms as TransformStamped[]) this.tf.add(one, isStatic, now);
-      });
+      this.subscribeTransforms(isStatic ? '/tf_static' : '/tf', isStatic);
     }
     this.feed.subscribe('/rosout', (message) => this.logged(message));
+  }
+
+  /** Adds the transforms of a topic to the tree, with the names of their frames on this page. */
+  subscribeTransforms(topic: string, isStatic: boolean): () => void {
+    return this.feed.subscribe(topic, (message, _topic, _bytes, timeS) => {
+      const now = timeS === undefined ? performance.now() : timeS * 1000;
+      for (const one of message.transforms as TransformStamped[]) {
+        const header = { ...one.header, frame_id: this.robots.frameOf(topic, one.header.frame_id) };
+        const child_frame_id = this.robots.frameOf(topic, one.child_frame_id);
+        this.tf.add({ ...one, header, child_frame_id }, isStatic, now);
+      }
+    });
   }
 
   // Connection and time.
@@ -151,6 +164,7 @@ export class App {
     if (state === 'closed') this.recordings?.disconnected();
     if (state !== 'closed' || this.replay) return;
     this.tf.clear();
+    this.robots.forgetAnchors();
     this.sensors.clear();
     this.clock.forgetStats();
     // The files of another run may differ.
@@ -169,6 +183,7 @@ export class App {
   /** Another source, or another time of a recording: everything that was received is forgotten. */
   jumped(spanS = 0): void {
     this.tf.clear();
+    this.robots.forgetAnchors();
     this.tf.keptS = KEPT_S + spanS;
     this.sensors.clear();
     this.log = [];
@@ -238,6 +253,11 @@ export class App {
     return fixedFromWorld && multiply(fixedFromWorld, worldFromData);
   }
 
+  /** Model of the simulated world whose sensors publish in a namespace. */
+  modelOfNamespace(namespace: string): string | undefined {
+    return this.sensors.modelOfNamespace(namespace);
+  }
+
   /** Called by each 3D view once per frame. */
   tick(nowMs: number): void {
     if (nowMs - this.flushedMs <= FLUSH_MS) return;
@@ -272,7 +292,9 @@ export class App {
     this.framesKey = key;
     const known = this.tf.names();
     const names = known.length === 0 && this.worldName ? [WORLD] : known;
-    if (names.join() !== this.frames.join()) this.frames = names;
+    if (names.join() === this.frames.join()) return;
+    this.frames = names;
+    this.robots.settle();
   }
 
   // Topics and services.
@@ -304,6 +326,7 @@ export class App {
       .map((service) => /^\/world\/(.+)\/control$/.exec(service.name)?.[1])
       .find(Boolean);
     this.setWorld(world ?? '');
+    this.robots.settle();
     for (const viewport of this.viewports) viewport.offersChanged();
   }
 
@@ -321,7 +344,10 @@ export class App {
       this.worldSubscriptions.push(this.feed.subscribe(`/world/${name}/${what}`, handler));
     subscribe('truth', (message) => (this.maps = mapTruths(message)));
     subscribe('sensors', (message) => this.sensors.setMounts(message));
-    subscribe('poses', (message) => this.sensors.addPoses(message));
+    subscribe('poses', (message) => {
+      this.sensors.addPoses(message);
+      this.robots.anchor(message);
+    });
     subscribe('stats', (message) =>
       this.clock.setStats({
         timeS: seconds(message.sim_time as never),

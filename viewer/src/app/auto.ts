@@ -81,7 +81,7 @@ export function suggestionFor(topic: string, type: string): Suggestion | undefin
       'rviz_default_plugins/RobotModel',
       { 'Description Topic': topic },
       true,
-      'Robot',
+      `Robot ${topic.slice(1, -'/robot_description'.length)}`.trim(),
     );
   }
   const kind = kindForType(type);

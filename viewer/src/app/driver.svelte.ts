@@ -17,6 +17,8 @@ export class Driver {
   keyTopic = $state('/keyboard/keypress');
   lastKey = $state('');
   private isChosen = false;
+  /** Namespace of the robot for which the topic was selected. */
+  private robot?: string;
   private held: string[] = [];
   private timer?: ReturnType<typeof setInterval>;
 
@@ -24,7 +26,9 @@ export class Driver {
 
   /** Topics of velocity commands that have a subscriber. */
   topics(): string[] {
+    const { chosen, isMany } = this.app.robots;
     const found = this.app.topics
+      .filter((t) => !isMany || !chosen || t.name.startsWith(`${chosen.namespace}/`))
       .filter((t) => /(^|\/)cmd_vel\w*$/.test(t.name) || /Twist(Stamped)?$/.test(t.type))
       .map((t) => t.name);
     return [...new Set([this.topic, ...found])].sort();
@@ -32,6 +36,18 @@ export class Driver {
 
   /** Selects the topic that a robot subscribes to, unless the user chose one. */
   settle(): void {
+    const { chosen, isMany } = this.app.robots;
+    if (isMany && chosen && chosen.namespace !== this.robot) {
+      const topic = chosen.commandTopics[0] ?? `${chosen.namespace}/cmd_vel`;
+      // The robot before must not go on.
+      if (this.isDriven()) this.go([0, 0, 0, 0]);
+      this.isChosen = chosen.commandTopics.length > 0;
+      this.robot = this.isChosen ? chosen.namespace : undefined;
+      this.topic = topic;
+      const row = this.app.topics.find((one) => one.name === topic);
+      if (row?.type) this.isStamped = row.type.endsWith('/TwistStamped');
+      return;
+    }
     const listened = this.app.topics.filter((t) => t.subscribers.length > 0).map((t) => t.name);
     if (this.isChosen || listened.includes(this.topic)) return;
     const found = listened.find((name) => /(^|\/)cmd_vel$/.test(name));
@@ -105,7 +121,9 @@ export class Driver {
   private send(): void {
     const now = twist(this.move, this.speeds);
     if (this.isStamped) {
-      const message = { header: this.app.header('base_link'), twist: now };
+      const { chosen } = this.app.robots;
+      const frame = `${chosen && !chosen.hasOwnTf ? chosen.framePrefix : ''}base_link`;
+      const message = { header: this.app.header(frame), twist: now };
       this.app.publish(this.topic, 'geometry_msgs/msg/TwistStamped', message);
     } else this.app.publish(this.topic, 'geometry_msgs/msg/Twist', now as never);
   }

@@ -42,6 +42,8 @@ export interface Layout extends Arrangement {
   panels: Record<string, SavedPanel>;
   /** Kinds that appeared by themselves; those that the user closed stay closed. */
   offered?: string[];
+  /** Namespace of the robot that was chosen where there are several. */
+  robot?: string;
 }
 
 /** Version of layout files. A reader refuses newer ones. */
@@ -165,7 +167,8 @@ export function readLayout(value: unknown): Layout {
   const offered = (Array.isArray(value.offered) ? value.offered : []).filter(
     (kind) => typeof kind === 'string',
   );
-  return { panels, root: whole, floating, active, offered };
+  const robot = typeof value.robot === 'string' ? value.robot : undefined;
+  return { panels, root: whole, floating, active, offered, robot };
 }
 
 export function writeLayout(layout: Layout): JsonObject {

@@ -3,6 +3,7 @@
  * (`configById`; `layout` is a panel id or two halves with a direction), and Foxglove's documentation of panels.
  */
 import type { Values } from '../displays/options';
+import { longName } from '../core/schema';
 import { FIRST_VIEW, type ViewState } from '../scene/view';
 import { t } from '../texts/language.svelte';
 import { isSplit, panelsOf, tidy, type Layout, type Place, type SavedPanel } from './layout';
@@ -72,6 +73,7 @@ const PANELS: Record<string, string> = {
   TopicGraph: 'graph',
   SourceInfo: 'topics',
   CallService: 'services',
+  Publish: 'publish',
 };
 
 class Importer {
@@ -146,6 +148,8 @@ class Importer {
       case 'plot':
       case 'states':
         return { series: this.series(listOf(config.paths)) };
+      case 'publish':
+        return { rows: [this.publication(config)] };
       case 'messages':
       case 'table': {
         const { topic, path } = this.path(textOf(config.topicPath));
@@ -160,6 +164,18 @@ class Importer {
     const { topic, path, isPlain } = splitPath(text);
     if (!isPlain) this.leftOut.push(t().foxglove.filter(text));
     return { topic, path };
+  }
+
+  /** Row of the panel that publishes; the message there is JSON. */
+  private publication(config: JsonObject): JsonObject {
+    const [topic, text] = [textOf(config.topicName), textOf(config.value)];
+    let value: unknown = {};
+    try {
+      value = text.trim() ? JSON.parse(text) : {};
+    } catch (error) {
+      this.leftOut.push(t().publish.notImported(topic, (error as Error).message));
+    }
+    return { topic, type: longName(textOf(config.datatype)), value: tree(value) };
   }
 
   private series(paths: unknown[]): { topic: string; path: string }[] {

@@ -88,6 +88,7 @@ export class Navigation {
   private planEnd = '';
   /** Last goal of this page. */
   private sent?: { id: string; target: string; count: number };
+  private hasBeenShown = false;
   private lastLog = { text: '', receivedMs: 0 };
   private moved?: { pose: PoseMessage; timeS: number };
   private leave: (() => void)[] = [];
@@ -105,7 +106,10 @@ export class Navigation {
     const names = [...this.app.topics, ...this.app.services].map((one) => one.name);
     const namespaces = namespacesOf(names);
     if (namespaces.join() !== this.namespaces.join()) this.namespaces = namespaces;
-    const isKnown = this.namespace !== undefined && namespaces.includes(this.namespace);
+    const { chosen, isMany } = this.app.robots;
+    // With several robots the navigator is that of the chosen one, which may have none.
+    if (isMany && chosen) this.choose(chosen.navigator);
+    const isKnown = isMany || (this.namespace !== undefined && namespaces.includes(this.namespace));
     if (!isKnown) this.choose(namespaces[0]);
     const served = ACTIONS.filter((one) => this.offer(one, 'send_goal'));
     if (served.join() !== this.actions.join()) this.actions = served;
@@ -119,7 +123,8 @@ export class Navigation {
     this.forget();
     this.namespace = namespace;
     if (namespace === undefined) return;
-    this.attention++;
+    if (!this.hasBeenShown) this.attention++;
+    this.hasBeenShown = true;
     for (const action of ACTIONS) {
       this.subscribe(`${action}/_action/status`, (message) => this.took(action, message));
       this.subscribe(`${action}/_action/feedback`, (message) => this.advanced(action, message));

@@ -3,6 +3,7 @@ import type { JobKind, ParameterValue, Recording } from '../core/protocol';
 import type { UploadedFile } from '../core/replay_requests';
 import { t } from '../texts/language.svelte';
 import type { App } from './app.svelte';
+import { download } from './download';
 
 export interface Upload {
   id: number;
@@ -21,6 +22,8 @@ export class Recordings {
   list: readonly Recording[] = $state.raw([]);
   isRecording = $state(false);
   uploads: Upload[] = $state([]);
+  /** Reports that are written, and files that are fetched; `part` is the received part, 0 to 1, if it is known. */
+  works: { id: number; name: string; part: number | undefined }[] = $state.raw([]);
   /** True if the server has recordings. */
   isServed = $state(false);
   /** True if the server has nothing but recordings. */
@@ -185,6 +188,39 @@ export class Recordings {
       wanted: 'compare',
     });
     this.requests.startJob(kind, recording, parameters);
+  }
+
+  /** Offers the report of one recording, or of two, as a download. */
+  async report(recordings: readonly Recording[]): Promise<void> {
+    const names = recordings.map(({ name }) => name);
+    await this.work(names.join(' + '), async () => {
+      const html = await this.requests.report(recordings.map(({ id }) => id));
+      download(html, `${names.join('-')}.html`, 'text/html');
+    });
+  }
+
+  /** Offers the file of a recording as a download. */
+  async keep(recording: Recording): Promise<void> {
+    await this.work(recording.name, async (set) => {
+      const { name, blob } = await this.requests.file(recording.id, set);
+      download(blob, recording.isTemporary ? `${recording.name}.${name.split('.').pop()}` : name);
+    });
+  }
+
+  /** Shows that the server works, and reports a failure. */
+  private async work(name: string, run: (set: (part: number) => void) => Promise<void>) {
+    const id = ++lastUpload;
+    const set = (part: number) => {
+      this.works = this.works.map((one) => (one.id === id ? { ...one, part } : one));
+    };
+    this.works = [...this.works, { id, name, part: undefined }];
+    try {
+      await run(set);
+    } catch (error) {
+      this.app.notice('error', `${name}: ${(error as Error).message}`);
+    } finally {
+      this.works = this.works.filter((one) => one.id !== id);
+    }
   }
 
   /** Records the running system, or ends the recording, which is then in the list. */

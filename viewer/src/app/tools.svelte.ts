@@ -64,6 +64,8 @@ const MIN_DRAG_M = 0.05;
 const EDITING: readonly ToolName[] = ['move', 'select', 'translate', 'rotate'];
 
 const STEP_PX = 12;
+/** Motion of the mouse up to which pressing and releasing is a click [px]. */
+const CLICK_PX = 4;
 const ARROWS: Record<string, [number, number]> = {
   ArrowLeft: [-1, 0],
   ArrowRight: [1, 0],
@@ -97,6 +99,8 @@ export class Tools {
   line: { from: Vec3; lengthM: number } | undefined = $state.raw();
   private manipulator: Manipulator;
   private isListening = false;
+  /** Where the button was pressed. */
+  private pressed?: PagePoint;
 
   constructor(
     private app: App,
@@ -251,6 +255,7 @@ export class Tools {
 
   private down(event: PagePoint): void {
     const { view } = this.app.stage!;
+    this.pressed = event;
     const isSimulation = EDITING.includes(this.active);
     if (isSimulation && this.manipulator.grab(event)) {
       view.isHeld = true;
@@ -300,6 +305,7 @@ export class Tools {
   }
 
   private up(event: PagePoint): void {
+    this.chooseRobot(event);
     if (this.manipulator.drop()) {
       this.holdCameras(this.active !== 'move');
       return;
@@ -321,6 +327,26 @@ export class Tools {
       this.holdCameras(false);
     }
     this.start = undefined;
+  }
+
+  /** A click on a robot chooses it, where there are several. */
+  private chooseRobot(event: PagePoint): void {
+    const { pressed, app } = this;
+    this.pressed = undefined;
+    const mayChoose = this.active === 'move' || this.active === 'select';
+    if (!pressed || !mayChoose || !app.robots.isMany || this.manipulator.isDragging) return;
+    const movedPx = Math.hypot(event.clientX - pressed.clientX, event.clientY - pressed.clientY);
+    if (movedPx > CLICK_PX) return;
+    // The first model counts: points of a lidar lie on other robots, and maps and paths are no models.
+    for (const { object } of this.solids(event)) {
+      let at: Object3D | null = object;
+      while (at && !at.userData.entity && !at.userData.robotTopic) at = at.parent;
+      if (!at) continue;
+      const { entity: model, robotTopic: topic } = at.userData as Record<string, string>;
+      const robot = app.robots.find({ model, topic });
+      if (robot) app.robots.choose(robot.namespace);
+      return;
+    }
   }
 
   private focused(at: Vector3) {
@@ -355,7 +381,10 @@ export class Tools {
   drive(action: 'follow_waypoints' | 'navigate_through_poses'): void {
     if (this.active === 'waypoints') this.choose('move');
     this.dropArrow('goal');
-    void this.navigation.send(action, this.waypoints.stamped());
+    const { robots } = this.app;
+    const poses = this.waypoints.list.map((one) => robots.poseThere(one.frame, one.pose));
+    const stamped = poses.map(({ frame, pose }) => ({ frame, pose: messageOf(pose) }));
+    void this.navigation.send(action, stamped);
   }
 
   private dropArrow(tool: 'pose' | 'goal'): void {
@@ -408,6 +437,19 @@ export class Tools {
     return !!row?.subscribers.some((node) => node !== OWN_NODE);
   }
 
+  /** Topic of the chosen robot: in its namespace, unless only the topic as it is named has a subscriber. */
+  private topicOfRobot(named: string): string {
+    const plain = absolute(named);
+    const { chosen, isMany, list } = this.app.robots;
+    if (!chosen?.namespace) return plain;
+    const isNamespaced = list.some(
+      ({ namespace }) => namespace && plain.startsWith(`${namespace}/`),
+    );
+    const own = chosen.namespace + plain;
+    if (isNamespaced || this.hasSubscriber(own)) return isNamespaced ? plain : own;
+    return isMany ? own : plain;
+  }
+
   /** Warns if the topic just published to has no subscriber. */
   private warnOfSilence(topic: string, advice: string): void {
     if (!this.hasSubscriber(topic)) {
@@ -419,20 +461,22 @@ export class Tools {
     const { app } = this;
     if (!this.canPlace()) return;
     this.keepArrow(tool, pose, lengthM);
-    const header = app.header();
+    const there = app.robots.poseThere(app.fixedFrame, pose);
+    const header = app.header(there.frame);
     const [x, y] = pose.t;
     const where = `x ${x.toFixed(2)}, y ${y.toFixed(2)} m, ${((yawOf(pose.q) * 180) / Math.PI).toFixed(0)}°`;
     if (tool === 'goal') {
-      const named = absolute(app.active.toolValue('SetGoal', 'Topic', GOAL_TOPIC));
+      const named = this.topicOfRobot(app.active.toolValue('SetGoal', 'Topic', GOAL_TOPIC));
       const isRos1 = !this.hasSubscriber(named) && this.hasSubscriber(ROS1_GOAL_TOPIC);
       const topic = isRos1 ? ROS1_GOAL_TOPIC : named;
-      if (topic === `/${GOAL_TOPIC}` && this.navigation.can('navigate_to_pose')) {
+      const isUsual = topic.endsWith(`/${GOAL_TOPIC}`);
+      if (isUsual && this.navigation.can('navigate_to_pose')) {
         // The action answers if the navigator accepts the goal; the topic does not.
-        const goal = { frame: app.fixedFrame, pose: messageOf(pose) };
+        const goal = { frame: there.frame, pose: messageOf(there.pose) };
         void this.navigation.send('navigate_to_pose', [goal]);
         return;
       }
-      app.publish(topic, 'geometry_msgs/msg/PoseStamped', { header, pose: messageOf(pose) });
+      app.publish(topic, 'geometry_msgs/msg/PoseStamped', { header, pose: messageOf(there.pose) });
       app.notice('info', t().tools.goalSent(app.fixedFrame, where));
       this.warnOfSilence(topic, t().tools.startNavigator);
       return;
@@ -441,8 +485,8 @@ export class Tools {
     covariance[0] = app.active.toolValue('SetInitialPose', 'Covariance x', 0.25);
     covariance[7] = app.active.toolValue('SetInitialPose', 'Covariance y', 0.25);
     covariance[35] = app.active.toolValue('SetInitialPose', 'Covariance yaw', 0.06853891909122467);
-    const topic = absolute(app.active.toolValue('SetInitialPose', 'Topic', 'initialpose'));
-    const inner = { pose: messageOf(pose), covariance };
+    const topic = this.topicOfRobot(app.active.toolValue('SetInitialPose', 'Topic', 'initialpose'));
+    const inner = { pose: messageOf(there.pose), covariance };
     app.publish(topic, 'geometry_msgs/msg/PoseWithCovarianceStamped', { header, pose: inner });
     app.notice('info', t().tools.poseSent(app.fixedFrame, where));
     this.warnOfSilence(topic, t().tools.startLocalization);
@@ -451,9 +495,11 @@ export class Tools {
   private publishPoint(at: Vector3): void {
     const { app } = this;
     if (!this.canPlace()) return;
-    const topic = absolute(app.active.toolValue('PublishPoint', 'Topic', 'clicked_point'));
-    const point = { x: at.x, y: at.y, z: at.z };
-    app.publish(topic, 'geometry_msgs/msg/PointStamped', { header: app.header(), point });
+    const topic = this.topicOfRobot(app.active.toolValue('PublishPoint', 'Topic', 'clicked_point'));
+    const there = app.robots.poseThere(app.fixedFrame, { t: at.toArray(), q: [0, 0, 0, 1] });
+    const [x, y, z] = there.pose.t;
+    const header = app.header(there.frame);
+    app.publish(topic, 'geometry_msgs/msg/PointStamped', { header, point: { x, y, z } });
     app.notice(
       'info',
       t().tools.pointSent(
@@ -480,6 +526,17 @@ export class Tools {
       .setZ(Math.max(a.z, b.z) + 0.15);
     this.marks.add(caption);
     this.app.stage!.invalidate();
+  }
+
+  /** Surfaces under the mouse, the nearest first. */
+  private solids(event: PagePoint): Intersection[] {
+    const { view, content } = this.app.stage!;
+    const all: Object3D[] = [];
+    content.traverseVisible((object) => {
+      if (object.userData.isMark || !('isMesh' in object)) return;
+      if ((object as Mesh).geometry?.getAttribute('position')) all.push(object);
+    });
+    return view.ray(event.clientX, event.clientY).intersectObjects(all, false);
   }
 
   /** First object under the mouse; a point of a cloud if it is near the mouse. */

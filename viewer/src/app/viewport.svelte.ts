@@ -34,6 +34,7 @@ const topicOf = (values: Values): string =>
   String(values.Topic ?? values['Description Topic'] ?? '');
 
 const WORLD_CLASS = 'periplus/World';
+const ROBOT_CLASS = 'rviz_default_plugins/RobotModel';
 
 /** A 3D view as it is saved with a layout. */
 export interface ViewportState {
@@ -116,7 +117,8 @@ export class Viewport {
     return {
       stage: this.stage!,
       tf: app.tf,
-      subscribe: (topic, handler, need) => app.feed.subscribe(topic, handler, need),
+      subscribe: (topic, handler, need) =>
+        app.feed.subscribe(topic, app.robots.withFrames(topic, handler), need),
       asset: (uri) => app.client.asset(uri),
       meshes: app.meshes,
       publish: (topic, type, message) => app.publish(topic, type, message),
@@ -199,9 +201,24 @@ export class Viewport {
     else this.addAwaitedWorld();
   }
 
+  /** Robots were found: their models get the prefixes of their frames. */
+  robotsChanged(): void {
+    for (const entry of this.displays) {
+      if (!entry.isAutomatic || entry.kind.class !== ROBOT_CLASS) continue;
+      const robot = this.app.robots.find({ topic: topicOf(entry.values) });
+      const prefix = robot?.framePrefix.slice(0, -1);
+      if (prefix !== undefined && prefix !== entry.values['TF Prefix']) {
+        this.setOption(entry, 'TF Prefix', prefix);
+      }
+    }
+  }
+
   flush(): void {
     for (const entry of this.displays) entry.flush();
-    const { frames, tf } = this.app;
+    const { tf, robots } = this.app;
+    // The robot that is chosen decides if its frames are not connected to the others.
+    const base = robots.isMany ? robots.baseFrame() : undefined;
+    const frames = base ? [base, ...this.app.frames] : this.app.frames;
     if (this.isFrameChosen || frames.length === 0) return;
     const own = frames.filter((name) => prefixIn(name) === (this.track ?? ''));
     const best = bestFrame(
@@ -247,6 +264,7 @@ export class Viewport {
       const isEnabled = suggestion.isEnabled && (!isPicture || ++pictures <= 1);
       this.add(suggestion.class, suggestion.name, suggestion.values, isEnabled, true);
     }
+    this.robotsChanged();
   }
 
   /** Adds the simulated world to the displays of a file that was opened before the world was known. */

@@ -1,8 +1,6 @@
 /** Waypoints that the user sets on the 3D view, each kept in the frame in which it was set. */
 import { Color, Group, Mesh } from 'three';
-import type { StampedPose } from '../core/nav2';
 import { fromYaw, multiply, yawOf, type Pose } from '../core/pose';
-import { messageOf } from '../core/types';
 import { arrowGeometry, label, polyline, surface } from '../scene/shapes';
 import { dispose, type Stage } from '../scene/stage';
 import type { App } from './app.svelte';
@@ -18,7 +16,6 @@ export const WAYPOINT_COLOR = new Color('#ffb02e');
 const HEIGHT_M = 0.06;
 /** Distance between two waypoints below which the second keeps the heading of the first [m]. */
 const MIN_STEP_M = 0.01;
-const BASES = ['base_footprint', 'base_link'];
 
 export class Waypoints {
   list: Waypoint[] = $state.raw([]);
@@ -52,10 +49,6 @@ export class Waypoints {
     this.list = [];
   }
 
-  stamped(): StampedPose[] {
-    return this.list.map(({ frame, pose }) => ({ frame, pose: messageOf(pose) }));
-  }
-
   private arrivalYaw(x: number, y: number): number {
     const last = this.list[this.list.length - 1];
     const from = last ? this.inFixed(last) : this.robot();
@@ -65,7 +58,7 @@ export class Waypoints {
   }
 
   private robot(): Pose | undefined {
-    const base = BASES.find((name) => this.app.tf.has(name));
+    const base = this.app.robots.baseFrame();
     const found = base ? this.app.tf.lookup(this.app.fixedFrame, base) : undefined;
     return found?.kind === 'found' ? found.pose : undefined;
   }

@@ -271,7 +271,8 @@ export class Workbench implements PanelHost {
         { kind: panel.kind, title: panel.given, state: panel.saved() },
       ]),
     );
-    return { panels, ...this.arrangement, active: this.active?.id, offered: this.offered };
+    const { saved: robot } = this.app.robots;
+    return { panels, ...this.arrangement, active: this.active?.id, offered: this.offered, robot };
   }
 
   /**
@@ -297,6 +298,7 @@ export class Workbench implements PanelHost {
     }
     const { root, floating, active } = layout;
     this.offered = layout.offered ?? [];
+    this.app.robots.restore(layout.robot);
     this.arrangement = { root, floating, active };
     this.arranger = arranger;
     arranger?.load(this.arrangement);

@@ -59,6 +59,14 @@ interface Topic {
   isBroken?: boolean;
 }
 
+/** A topic that this page publishes. */
+interface OwnChannel {
+  id: number;
+  schema: string;
+  text: string;
+  isLatched: boolean;
+}
+
 interface Pending<T> {
   resolve(value: T): void;
   reject(error: Error): void;
@@ -88,7 +96,10 @@ export class Client {
   private socket?: Socket;
   private topics = new Map<string, Topic>();
   private topicOf = new Map<number, string>();
-  private ours = new Map<string, { id: number; schema: string }>();
+  private ours = new Map<string, OwnChannel>();
+  private schemas = new Map<number, Pending<{ schema: string | null; names: string[] }>>();
+  /** True if the server is Periplus, which has more than the protocol. */
+  private isPeriplus = false;
   private calls = new Map<number, Pending<Message> & { offer: ServiceOffer }>();
   private assets = new Map<number, Pending<Uint8Array>>();
   private repairs = new Map<number, Pending<string>>();
@@ -130,7 +141,7 @@ export class Client {
     socket.onopen = () => {
       this.retryMs = FIRST_RETRY_MS;
       this.setState('open', '');
-      for (const [topic, { id, schema }] of this.ours) this.sendAdvertise(topic, id, schema);
+      for (const [topic, channel] of this.ours) this.sendAdvertise(topic, channel);
     };
     socket.onmessage = (event) => this.receive(event.data);
     socket.onerror = () => undefined;
@@ -169,14 +180,15 @@ export class Client {
       topic.isBroken = false;
     }
     this.mismatches = [];
-    const { calls, assets, repairs } = this;
-    for (const pending of [...calls.values(), ...assets.values(), ...repairs.values()]) {
+    const { calls, assets, repairs, schemas } = this;
+    for (const pending of [calls, assets, repairs, schemas].flatMap((all) => [...all.values()])) {
       clearTimeout(pending.timer);
       pending.reject(new Error(why));
     }
     this.calls.clear();
     this.assets.clear();
     this.repairs.clear();
+    this.schemas.clear();
     this.recordings.disconnected(why);
     this.events.graphChanged();
   }
@@ -234,26 +246,63 @@ export class Client {
     this.send({ op: 'subscribe', subscriptions });
   }
 
-  /** Advertises a topic; the returned function publishes on it. */
-  publisher(topic: string, schema: string): (message: Message) => void {
-    let known = this.ours.get(topic);
-    if (!known) {
-      known = { id: ++this.lastId, schema };
-      this.ours.set(topic, known);
-      this.sendAdvertise(topic, known.id, schema);
-    }
-    const { id } = known;
+  /**
+   * Advertises a topic; the returned function publishes on it. `text` is the definition of the type, by default that
+   * of the server; a topic `isLatched` keeps its last message for late subscribers.
+   */
+  publisher(
+    topic: string,
+    schema: string,
+    text = this.textOf(schema),
+    isLatched = false,
+  ): (message: Message) => void {
+    this.advertise(topic, schema, text, isLatched);
     let encode: ((message: Message) => Uint8Array) | undefined;
     return (message) => {
-      encode ??= encoder(parseSchema(schema, this.textOf(schema)));
-      if (this.socket?.readyState === 1) this.socket.send(messageFrame(id, encode(message)));
+      encode ??= encoder(parseSchema(schema, text));
+      const bytes = encode(message);
+      // Another part of the page may have advertised the topic with another type since.
+      const id = this.advertise(topic, schema, text, isLatched);
+      if (this.socket?.readyState === 1) this.socket.send(messageFrame(id, bytes));
     };
   }
 
-  private sendAdvertise(topic: string, id: number, schemaName: string): void {
-    const schema = this.textOf(schemaName);
-    const channel = { id, topic, encoding: 'cdr', schemaName, schema, schemaEncoding: 'ros2msg' };
-    this.send({ op: 'advertise', channels: [channel] });
+  private advertise(topic: string, schema: string, text: string, isLatched: boolean): number {
+    const known = this.ours.get(topic);
+    if (known?.schema === schema && known.isLatched === isLatched) return known.id;
+    this.unadvertise(topic);
+    const channel = { id: ++this.lastId, schema, text, isLatched };
+    this.ours.set(topic, channel);
+    this.sendAdvertise(topic, channel);
+    return channel.id;
+  }
+
+  /** Ends publishing on a topic. */
+  unadvertise(topic: string): void {
+    const known = this.ours.get(topic);
+    if (!known) return;
+    this.ours.delete(topic);
+    this.send({ op: 'unadvertise', channelIds: [known.id] });
+  }
+
+  private sendAdvertise(topic: string, { id, schema: schemaName, text, isLatched }: OwnChannel) {
+    const channel = { id, topic, encoding: 'cdr', schemaName, schema: text };
+    const more = { schemaEncoding: 'ros2msg', ...(isLatched && { isLatched }) };
+    this.send({ op: 'advertise', channels: [{ ...channel, ...more }] });
+  }
+
+  /** Definition of a type that the server knows, `null` if it does not; the names of all types for an empty name. */
+  fetchSchema(schemaName: string): Promise<{ schema: string | null; names: string[] }> {
+    if (!this.isPeriplus) return Promise.resolve({ schema: null, names: [] });
+    const requestId = ++this.lastId;
+    return new Promise((resolve, reject) => {
+      const timer = setTimeout(() => {
+        this.schemas.delete(requestId);
+        reject(new Error(t().connection.timeout(schemaName, CALL_TIMEOUT_MS / 1000)));
+      }, CALL_TIMEOUT_MS);
+      this.schemas.set(requestId, { resolve, reject, timer });
+      this.send({ op: 'fetchSchema', requestId, schemaName });
+    });
   }
 
   private textOf(schemaName: string): string {
@@ -363,6 +412,7 @@ export class Client {
     switch (text.op) {
       case 'serverInfo':
         this.serverName = text.name;
+        this.isPeriplus = !!text.metadata?.periplus;
         this.capabilities = text.capabilities;
         if (text.capabilities.includes('connectionGraph')) {
           this.send({ op: 'subscribeConnectionGraph' });
@@ -413,6 +463,13 @@ export class Client {
         this.calls.delete(text.callId);
         clearTimeout(call?.timer);
         call?.reject(new Error(text.message));
+        break;
+      }
+      case 'schema': {
+        const wanted = this.schemas.get(text.requestId);
+        this.schemas.delete(text.requestId);
+        clearTimeout(wanted?.timer);
+        wanted?.resolve(text);
         break;
       }
       case 'removeStatus':
@@ -496,6 +553,9 @@ export class Client {
         else asset.resolve(frame.data);
         break;
       }
+      case 'filePart':
+        this.recordings.receivePart(frame);
+        break;
       case 'stored':
         this.recordings.receiveFrame(frame);
         break;

@@ -85,6 +85,10 @@ export interface Recording {
   findings: string[];
   /** Recording and parameters that an estimator was run on. */
   origin: { recording: number; kind: string; parameters: Record<string, ParameterValue> } | null;
+  /** True if the server removes its file when it is closed. */
+  isTemporary?: boolean;
+  /** Facts that the recorder wrote, by name. */
+  customData?: Record<string, string>;
   topics: RecordingTopic[];
 }
 
@@ -123,7 +127,40 @@ export type RecordingText =
   | { op: 'uploadStarted'; requestId: number; upload: number }
   | { op: 'uploadProgress'; upload: number; bytes: number }
   | { op: 'jobParameters'; requestId: number; kind: string; parameters: JobParameter[] }
+  | { op: 'report'; requestId: number; html: string }
+  | { op: 'difference'; requestId: number; difference: StoredDifference }
+  | { op: 'file'; requestId: number; name: string; bytes: number }
   | { op: 'fetchFailure'; requestId: number; message: string };
+
+/** Difference of two recordings; pairs are of the first and of the second, `null` where one has nothing. */
+export interface StoredDifference {
+  map: {
+    knownCount: number;
+    changedCount: number;
+    onlyFirstCount: number;
+    onlySecondCount: number;
+    resolutionM: number;
+  } | null;
+  trajectory: { frame: string; isSinceStart: boolean; rmsM: number; maxM: number } | null;
+  topics: StoredTopicDifference[];
+}
+
+export interface StoredTopicDifference {
+  topic: string;
+  types: [string | null, string | null];
+  counts: [number | null, number | null];
+  ratesHz: [number | null, number | null];
+  /** Number of messages that were compared, the Nth of one with the Nth of the other. */
+  comparedCount: number;
+  /** First messages that differ. */
+  first: {
+    index: number;
+    timesNs: [string, string];
+    /** Values as JSON; empty where there is none. */
+    values: { path: string; values: [string, string] }[];
+    valueCount: number;
+  } | null;
+}
 
 /** Message of a recording, not decoded. */
 export interface StoredMessage {
@@ -154,6 +191,7 @@ export type ServerText =
       removedServices: string[];
       mismatches?: Mismatch[];
     } & Ends)
+  | { op: 'schema'; requestId: number; schema: string | null; names: string[] }
   | { op: 'repairQosResult'; id: number; isRepaired: boolean; message: string }
   | RecordingText
   | { op: 'serviceCallFailure'; serviceId: number; callId: number; message: string };
@@ -163,6 +201,7 @@ export type ServerFrame =
   | { op: 'time'; nanoseconds: bigint }
   | { op: 'answer'; service: number; call: number; encoding: string; payload: Uint8Array }
   | { op: 'asset'; request: number; error?: string; data: Uint8Array }
+  | { op: 'filePart'; request: number; isLast: boolean; part: Uint8Array<ArrayBuffer> }
   | {
       op: 'stored';
       request: number;
@@ -214,6 +253,13 @@ export function parseFrame(data: ArrayBuffer): ServerFrame | undefined {
         isMore: (view.getUint8(5) & 2) !== 0,
         reachedNs: view.getBigUint64(6, true),
         messages: storedMessages(view, bytes),
+      };
+    case 0x12:
+      return {
+        op: 'filePart',
+        request: view.getUint32(1, true),
+        isLast: (view.getUint8(5) & 1) !== 0,
+        part: bytes.subarray(6),
       };
     default:
       return undefined;

@@ -1,13 +1,11 @@
 /** Frames and stamps of a second recording: own names, and the time of the first one. */
 import type { Message } from './cdr';
+import { FRAME_FIELDS } from './frame_names';
 import { definitionOf, type Schema } from './schema';
 import { frameName } from './tf';
 import type { Stamp } from './types';
 
 const NS_PER_S = 1_000_000_000n;
-
-/** Names of fields of the type `string` that hold a frame. */
-const FRAME_FIELDS = new Set(['frame_id', 'child_frame_id']);
 
 type Change = (value: Message, prefix: string, shiftNs: bigint) => void;
 

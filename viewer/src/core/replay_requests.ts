@@ -8,6 +8,7 @@ import {
   type Recording,
   type RecordingText,
   type ServerFrame,
+  type StoredDifference,
   type StoredMessage,
 } from './protocol';
 
@@ -67,6 +68,8 @@ export class RecordingRequests {
   private pending = new Map<number, Pending>();
   /** Requests that are answered by a change of the list, or by a failure. */
   private commands = new Set<number>();
+  /** Receivers of the parts of files. */
+  private files = new Map<number, (part: Uint8Array<ArrayBuffer>, isLast: boolean) => void>();
   private uploads = new Map<
     number,
     { confirmedBytes: number; wake(): void; fail(e: Error): void }
@@ -232,6 +235,52 @@ export class RecordingRequests {
     this.command({ op: 'openRecording', upload });
   }
 
+  /** Report of one recording, or of two, as an HTML document. */
+  async report(recordings: readonly number[]): Promise<string> {
+    return (await this.text({ op: 'fetchReport', recordings }, 'report')).html;
+  }
+
+  /** Difference of two recordings: their topics, maps and trajectories. */
+  async difference(
+    recording: number,
+    other: number,
+    signal: AbortSignal,
+  ): Promise<StoredDifference> {
+    const request = { op: 'fetchDifference', recording, other };
+    return (await this.text(request, 'difference', signal)).difference;
+  }
+
+  /** File of a recording; `progress` gets the received part, 0 to 1. */
+  file(recording: number, progress: (part: number) => void): Promise<{ name: string; blob: Blob }> {
+    return new Promise((resolve, reject) => {
+      const parts: Uint8Array<ArrayBuffer>[] = [];
+      let head = { name: '', bytes: 0 };
+      let receivedBytes = 0;
+      const requestId = this.ask(
+        { op: 'fetchFile', recording },
+        {
+          fail: (error) => {
+            if (requestId !== undefined) this.files.delete(requestId);
+            reject(error);
+          },
+          text: (text) => {
+            if (text.op === 'file') head = text;
+          },
+        },
+      );
+      if (requestId === undefined) return;
+      this.files.set(requestId, (part, isLast) => {
+        parts.push(part);
+        receivedBytes += part.length;
+        progress(head.bytes > 0 ? receivedBytes / head.bytes : 1);
+        if (!isLast) return;
+        this.files.delete(requestId);
+        this.pending.delete(requestId);
+        resolve({ name: head.name, blob: new Blob(parts) });
+      });
+    });
+  }
+
   startRecording(): void {
     this.command({ op: 'startRecording' });
   }
@@ -278,6 +327,10 @@ export class RecordingRequests {
     }
   }
 
+  receivePart(frame: ServerFrame & { op: 'filePart' }): void {
+    this.files.get(frame.request)?.(frame.part, frame.isLast);
+  }
+
   receiveFrame(frame: ServerFrame & { op: 'stored' }): void {
     const pending = this.pending.get(frame.request);
     if (!pending) return;
@@ -314,9 +367,10 @@ export class RecordingRequests {
   private text<Op extends RecordingText['op']>(
     request: object,
     op: Op,
+    signal?: AbortSignal,
   ): Promise<RecordingText & { op: Op }> {
     return new Promise((resolve, reject) => {
-      this.ask(request, {
+      const id = this.ask(request, {
         fail: reject,
         text: (text) => {
           if (text.op !== op) return;
@@ -324,6 +378,15 @@ export class RecordingRequests {
           resolve(text as RecordingText & { op: Op });
         },
       });
+      signal?.addEventListener(
+        'abort',
+        () => {
+          if (id === undefined || !this.pending.delete(id)) return;
+          this.send({ op: 'cancelFetch', requestIds: [id] });
+          reject(new DOMException('The request was cancelled', 'AbortError'));
+        },
+        { once: true },
+      );
     });
   }
 

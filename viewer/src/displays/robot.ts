@@ -50,6 +50,8 @@ class RobotModelDisplay extends Display {
     if (this.robot && description === this.description) return;
     this.description = description;
     this.robot = readUrdf(description);
+    // A click on the robot chooses it.
+    this.root.userData.robotTopic = this.values.Topic;
     this.host.status(
       'Description',
       'ok',

@@ -247,9 +247,14 @@ export class WorldDisplay extends Display {
   private common(): { frame: string; link: string }[] {
     const { tf } = this.context;
     const parts = [...this.frames.keys()].filter((frame) => frame !== modelOf(frame));
-    const all = parts.map((frame) => ({ frame, link: linkOf(frame) }));
+    // Frames of one of several robots have its name in front.
+    const all = parts.map((frame) => ({
+      frame,
+      link: tf.has(linkOf(frame)) ? linkOf(frame) : frame.replace('::', '/'),
+    }));
     const known = all.filter(({ link }) => tf.has(link));
-    const rank = (link: string) => ['base_footprint', 'base_link'].indexOf(link) >>> 0;
+    const rank = (link: string) =>
+      ['base_footprint', 'base_link'].indexOf(link.split('/').pop()!) >>> 0;
     return known.sort((a, b) => rank(a.link) - rank(b.link));
   }
 

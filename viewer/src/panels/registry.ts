@@ -86,6 +86,8 @@ const kinds: PanelKind[] = [
   // prettier-ignore
   { id: 'actions', title: () => t().panelNames.actions, icon: 'goal', load: () => import('./ActionsPanel.svelte') },
   // prettier-ignore
+  { id: 'publish', title: () => t().publish.title, icon: 'send', isMany: true, isKept: true, load: () => import('./PublishPanel.svelte') },
+  // prettier-ignore
   { id: 'parameterSets', title: () => t().panelNames.parameterSets, icon: 'save', load: () => import('./ParameterSetsPanel.svelte') },
   // prettier-ignore
   { id: 'joints', title: () => t().panelNames.joints, icon: 'joint', isKept: true, load: () => import('./JointsPanel.svelte') },

@@ -51,6 +51,15 @@ export class SensorFrames {
     }
   }
 
+  /** Model whose sensors publish in a namespace. */
+  modelOfNamespace(namespace: string): string | undefined {
+    if (!namespace) return undefined;
+    for (const [topic, { link }] of this.mounts) {
+      if (topic.startsWith(`${namespace}/`)) return link.split('/')[0];
+    }
+    return undefined;
+  }
+
   /** Pose in the world of the data on a topic; `undefined` for topics without a simulated sensor. */
   worldFromData(topic: string, frame: string, timeS: number): Pose | undefined {
     const mount = this.mounts.get(topic) ?? this.mounts.get(frameName(frame));

@@ -1169,4 +1169,100 @@ export const de: Texts = {
     unsupported: (server) =>
       `der Server „${server}“ sendet keine Dreiecke von Meshs; die Seite eines Periplus öffnen, das mit dem Roboter verbunden ist`,
   },
+  robots: {
+    robot: 'Roboter',
+    choose: 'Roboter, auf den die Werkzeuge wirken',
+    hint: 'Werkzeuge und Fenster wirken auf diesen Roboter. Ein Klick auf einen Roboter in einer 3D-Ansicht wählt ihn auch.',
+  },
+  publish: {
+    title: 'Senden',
+    add: 'Topic hinzufügen',
+    notConnected:
+      'Nicht verbunden: Nachrichten können gesendet werden, sobald die Seite verbunden ist.',
+    topic: 'Topic, etwa /cmd_vel',
+    topicOf: (number: number) => `Topic ${number}`,
+    type: 'Typ, etwa geometry_msgs/msg/Twist',
+    typeOf: (number: number) => `Typ von Topic ${number}`,
+    row: (number: number) => `Nachricht ${number}`,
+    remove: (title: string) => `${title} entfernen`,
+    message: 'Nachricht',
+    messageOf: (title: string) => `Nachricht von ${title}`,
+    once: 'Einmal senden',
+    repeat: 'Wiederholen',
+    stop: 'Anhalten',
+    rateOf: (title: string) => `Rate von ${title} [Hz]`,
+    latched: 'Für spätere Empfänger aufbewahren',
+    latchedHint:
+      'Transient local: Wer sich später anmeldet, bekommt die letzte Nachricht. Andere Server als Periplus beachten es nicht.',
+    stamps: 'Zeitstempel 0 durch die Zeit des Sendens ersetzen',
+    published: (count: number) => `${count} gesendet.`,
+    subscribers: (nodes: string) => `Empfänger: ${nodes}.`,
+    noSubscriber: 'Kein anderer Knoten empfängt es.',
+    badType: (type: string) =>
+      `„${type}“ ist kein Name eines Typs. Schreiben Sie PAKET/msg/TYP, etwa std_msgs/msg/String.`,
+    unknownType: (type: string) =>
+      `${type} ist hier unbekannt: Weder ein Topic dieses Typs noch der Server hat die Definition. Prüfen Sie die Schreibweise, oder starten Sie einen Knoten, der ihn sendet.`,
+    badTopic: (topic: string) =>
+      `„${topic}“ ist kein Name eines Topics: Buchstaben, Ziffern, _ und /, und keine Ziffer nach einem /.`,
+    otherType: (topic: string, there: string, wanted: string) =>
+      `${topic} hat den Typ ${there}, nicht ${wanted}. Wählen Sie diesen Typ oder ein anderes Topic.`,
+    badYaml: 'Das YAML ist nicht lesbar; berichtigen Sie es zuerst.',
+    notFields: (path: string, type: string, value: string) =>
+      `${path}: erwartet werden die Felder von ${type}, nicht ${value}.`,
+    noField: (path: string, type: string, known: string) =>
+      `${path}: ${type} hat kein solches Feld, sondern: ${known}.`,
+    notList: (path: string, type: string, value: string) =>
+      `${path}: erwartet wird eine Liste von ${type}, nicht ${value}.`,
+    wrongLength: (path: string, expected: number, found: number) =>
+      `${path}: erwartet werden ${expected} Elemente, nicht ${found}.`,
+    notWhole: (path: string, type: string, low: string, high: string, value: string) =>
+      `${path}: erwartet wird eine ganze Zahl vom Typ ${type}, von ${low} bis ${high}, nicht ${value}.`,
+    notType: (path: string, type: string, value: string) =>
+      `${path}: erwartet wird ein Wert vom Typ ${type}, nicht ${value}.`,
+    moreProblems: (count: number) => `… und ${count} weitere.`,
+    notImported: (topic: string, why: string) =>
+      `Publish ${topic}: Die Nachricht ist kein JSON (${why}); das Fenster hat eine leere.`,
+  },
+  recordingFiles: {
+    report: 'Bericht…',
+    reportNamed: (name: string) => `Bericht über ${name}`,
+    reportHint:
+      'Einen Bericht als eine HTML-Datei herunterladen: Bewertung, Karte, Diagramme, Log, Parameter',
+    download: 'Herunterladen',
+    downloadNamed: (name: string) => `${name} herunterladen`,
+    downloadHint: 'Die Datei dieser Aufnahme herunterladen',
+    discard: 'Verwerfen',
+    discardNamed: (name: string) => `${name} verwerfen`,
+    temporary:
+      'Dieses Ergebnis bleibt, bis es geschlossen wird oder das Programm endet. Laden Sie es herunter, um es zu behalten.',
+    working: (name: string) => `${name} wird bearbeitet…`,
+    facts: 'Herkunft',
+    factNames: {
+      command: 'Befehl',
+      world: 'Welt',
+      robots: 'Roboter',
+      seed: 'Startwert',
+      periplus: 'Version von Periplus',
+      rerun: 'Schätzer',
+      source: 'Aufnahme',
+    },
+  },
+  messageDifferences: {
+    title: 'Unterschiede der Nachrichten',
+    compare: 'Alle Nachrichten vergleichen',
+    reading: 'Beide Aufnahmen werden gelesen…',
+    report: 'Bericht über beide…',
+    summary: (different: number, same: number) =>
+      `${different} Topics mit verschiedenen Nachrichten, ${same} mit gleichen.`,
+    map: (changed: number, known: number) =>
+      `Letzte Karten: ${changed} von ${known} gemeinsamen Zellen sind verschieden.`,
+    trajectory: (rms: string, max: string) =>
+      `Trajektorien: RMS-Abstand ${rms} m, größter ${max} m.`,
+    first: (number: number, count: number) => `verschieden ab Nachricht ${number} von ${count}`,
+    times: (first: string, second: string) =>
+      `Bei ${first} s in A, bei ${second} s in der anderen, seit ihrem Beginn.`,
+    value: 'Wert',
+    more: (count: number) => `… und ${count} weitere Werte.`,
+    unknown: 'Die Nachrichten sind nicht lesbar; ihre Bytes sind verschieden.',
+  },
 };

@@ -1181,6 +1181,100 @@ export const en = {
     unsupported: (server: string) =>
       `the server "${server}" sends no triangles of meshes; open the page of a Periplus that is connected to the robot`,
   },
+  robots: {
+    robot: 'Robot',
+    choose: 'Robot that the tools act on',
+    hint: 'Tools and panels act on this robot. A click on a robot in a 3D view chooses it, too.',
+  },
+  publish: {
+    title: 'Publish',
+    add: 'Add a topic',
+    notConnected: 'Not connected: messages can be published once the page is connected.',
+    topic: 'Topic, such as /cmd_vel',
+    topicOf: (number: number) => `Topic ${number}`,
+    type: 'Type, such as geometry_msgs/msg/Twist',
+    typeOf: (number: number) => `Type of topic ${number}`,
+    row: (number: number) => `Message ${number}`,
+    remove: (title: string) => `Remove ${title}`,
+    message: 'Message',
+    messageOf: (title: string) => `Message of ${title}`,
+    once: 'Publish once',
+    repeat: 'Repeat',
+    stop: 'Stop',
+    rateOf: (title: string) => `Rate of ${title} [Hz]`,
+    latched: 'Keep for late subscribers',
+    latchedHint:
+      'Transient local: subscribers that come later get the last message. Other servers than Periplus ignore it.',
+    stamps: 'Fill stamps of zero with the time of publication',
+    published: (count: number) => `${count} published.`,
+    subscribers: (nodes: string) => `Subscribers: ${nodes}.`,
+    noSubscriber: 'No other node subscribes to it.',
+    badType: (type: string) =>
+      `"${type}" is not the name of a type. Write PACKAGE/msg/TYPE, such as std_msgs/msg/String.`,
+    unknownType: (type: string) =>
+      `${type} is unknown here: neither a topic of this type nor the server has its definition. Check the spelling, or start a node that publishes it.`,
+    badTopic: (topic: string) =>
+      `"${topic}" is not the name of a topic: letters, digits, _ and /, and no digit after a /.`,
+    otherType: (topic: string, there: string, wanted: string) =>
+      `${topic} has the type ${there}, not ${wanted}. Choose that type, or another topic.`,
+    badYaml: 'The YAML cannot be read; correct it first.',
+    notFields: (path: string, type: string, value: string) =>
+      `${path}: expected the fields of ${type}, not ${value}.`,
+    noField: (path: string, type: string, known: string) =>
+      `${path}: ${type} has no such field. It has: ${known}.`,
+    notList: (path: string, type: string, value: string) =>
+      `${path}: expected a list of ${type}, not ${value}.`,
+    wrongLength: (path: string, expected: number, found: number) =>
+      `${path}: expected ${expected} elements, not ${found}.`,
+    notWhole: (path: string, type: string, low: string, high: string, value: string) =>
+      `${path}: expected a whole number of the type ${type}, from ${low} to ${high}, not ${value}.`,
+    notType: (path: string, type: string, value: string) =>
+      `${path}: expected a value of the type ${type}, not ${value}.`,
+    moreProblems: (count: number) => `… and ${count} more.`,
+    notImported: (topic: string, why: string) =>
+      `Publish ${topic}: its message is not JSON (${why}); the panel has an empty one.`,
+  },
+  recordingFiles: {
+    report: 'Report…',
+    reportNamed: (name: string) => `Report of ${name}`,
+    reportHint: 'Download a report as one HTML file: scores, map, plots, log, parameters',
+    download: 'Download',
+    downloadNamed: (name: string) => `Download ${name}`,
+    downloadHint: 'Download the file of this recording',
+    discard: 'Discard',
+    discardNamed: (name: string) => `Discard ${name}`,
+    temporary:
+      'This result is kept until it is closed or the program ends. Download it to keep it.',
+    working: (name: string) => `Working on ${name}…`,
+    facts: 'Origin',
+    factNames: {
+      command: 'Command',
+      world: 'World',
+      robots: 'Robots',
+      seed: 'Seed',
+      periplus: 'Version of Periplus',
+      rerun: 'Estimator',
+      source: 'Recording',
+    } as Record<string, string>,
+  },
+  messageDifferences: {
+    title: 'Differences of the messages',
+    compare: 'Compare all messages',
+    reading: 'Reading both recordings…',
+    report: 'Report of both…',
+    summary: (different: number, same: number) =>
+      `${different} topics with different messages, ${same} with equal ones.`,
+    map: (changed: number, known: number) =>
+      `Last maps: ${changed} of ${known} common cells differ.`,
+    trajectory: (rms: string, max: string) =>
+      `Trajectories: RMS distance ${rms} m, largest ${max} m.`,
+    first: (number: number, count: number) => `differs from message ${number} of ${count} on`,
+    times: (first: string, second: string) =>
+      `At ${first} s in A, at ${second} s in the other, since their starts.`,
+    value: 'Value',
+    more: (count: number) => `… and ${count} more values.`,
+    unknown: 'The messages cannot be decoded; their bytes differ.',
+  },
 };
 
 export type Texts = typeof en;

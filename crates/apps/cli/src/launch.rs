@@ -63,7 +63,12 @@ pub(crate) struct LaunchOptions {
     search: SearchOptions,
 }
 
-pub(crate) fn run(options: &LaunchOptions, ros: Vec<String>) -> Result<ExitCode, CliError> {
+/// Runs a launch file; `recorded` is the command for its recording.
+pub(crate) fn run(
+    options: &LaunchOptions,
+    ros: Vec<String>,
+    recorded: String,
+) -> Result<ExitCode, CliError> {
     let start = Stopwatch::start();
     let to_nodes = arguments::read(ros)?;
     let (words, arguments) = split(&options.words);
@@ -113,6 +118,7 @@ pub(crate) fn run(options: &LaunchOptions, ros: Vec<String>) -> Result<ExitCode,
         arguments: to_nodes,
         tools: tools.as_ref().map(|tools| tools.folder().to_owned()),
         start,
+        recorded,
     };
     if options.dry_run {
         return play::preview(&launched, &options.play, &options.search);

@@ -31,6 +31,7 @@ mod page;
 mod paths;
 mod pictures;
 mod program;
+mod recorded_command;
 mod report;
 mod rerun;
 mod run_options;
@@ -59,6 +60,7 @@ use demo::DemoOptions;
 use options::Command;
 
 use crate::error::CliError;
+use crate::recorded_command::recorded_command;
 
 pub use report::{ReportError, report_html};
 
@@ -120,6 +122,7 @@ pub fn run(words: Vec<String>, own_command: Vec<String>, interpreter: Option<Str
         Ok(Err(code)) => return code,
         Err(error) => return ended(Err(error.into())),
     };
+    let recorded = recorded_command(&words);
     let (words, ros) = split_arguments(words);
     let options = match help::parse(words) {
         Ok(options) => options,
@@ -128,8 +131,8 @@ pub fn run(words: Vec<String>, own_command: Vec<String>, interpreter: Option<Str
     options.colour.apply();
     let command = options.command.unwrap_or_else(|| Command::Demo(DemoOptions::default()));
     let outcome = match command {
-        Command::Sim(options) => sim::run(&options, ros),
-        Command::Launch(options) => launch::run(&options, ros),
+        Command::Sim(options) => sim::run(&options, ros, recorded),
+        Command::Launch(options) => launch::run(&options, ros, recorded),
         Command::Teleop(options) => teleop::run(&options, ros),
         Command::View(options) => view::run(&options, ros),
         Command::Localize(options) => localize::run(&options, ros),

@@ -1,10 +1,14 @@
 //! Options of the page.
 
 use std::net::{IpAddr, SocketAddr};
+use std::path::Path;
 
 use clap::Args;
 use periplus_session::page::{DEFAULT_PORT, default_address};
 use periplus_session::{PageContext, PageSettings};
+use periplus_web::foxglove::JobError;
+
+use crate::report::report_html;
 
 /// Options of the page.
 #[derive(Debug, Default, Args)]
@@ -29,6 +33,7 @@ pub(crate) struct PageOptions {
 impl PageOptions {
     /// Settings of a page that is served in any case, by default on this machine.
     pub(crate) fn settings(&self, context: PageContext) -> PageSettings {
+        let context = PageContext { report: Some(report), ..context };
         let address = self.page.unwrap_or_else(default_address);
         PageSettings::at(address, self.token.clone(), context)
     }
@@ -43,6 +48,11 @@ impl PageOptions {
         self.page?;
         Some(PageSettings { is_quiet, opens_browser, ..self.settings(context) })
     }
+}
+
+/// Writes the reports that the page offers.
+fn report(paths: &[&Path]) -> Result<String, JobError> {
+    report_html(paths).map_err(|error| JobError::Failed(error.to_string()))
 }
 
 /// Parses `ADDRESS:PORT`, one of them, or `localhost`.

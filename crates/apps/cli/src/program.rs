@@ -136,7 +136,7 @@ fn launched(options: &RunOptions, text: &str, ros: Vec<String>) -> Result<ExitCo
         words.extend(["--resource-path".into(), folder.clone().into_os_string()]);
     }
     let outcome = match Options::try_parse_from(words).map(|options| options.command) {
-        Ok(Some(Command::Launch(options))) => launch::run(&options, ros),
+        Ok(Some(Command::Launch(options))) => launch::run(&options, ros, "periplus run".to_owned()),
         _ => Ok(ExitCode::FAILURE),
     };
     let _ = std::fs::remove_dir_all(folder);

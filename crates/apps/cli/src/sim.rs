@@ -152,7 +152,12 @@ enum Dynamics {
     Kinematic,
 }
 
-pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> Result<ExitCode, CliError> {
+/// Runs a simulation; `recorded` is the command for its recording.
+pub(crate) fn run(
+    options: &SimOptions,
+    ros: Vec<String>,
+    recorded: String,
+) -> Result<ExitCode, CliError> {
     let start = Stopwatch::start();
     let to_nodes = arguments::read(options.ros_words(ros))?;
     if options.hear.is_some() {
@@ -184,6 +189,7 @@ pub(crate) fn run(options: &SimOptions, ros: Vec<String>) -> Result<ExitCode, Cl
         .search(search)
         .recording(options.recorded.recording(options.record.as_deref()))
         .recording_truth(options.recorded.records_truth())
+        .command(Some(recorded))
         .computed(options.computed())
         .driver(driver)
         .estimators(options.estimators())

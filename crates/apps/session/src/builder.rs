@@ -1,5 +1,6 @@
 //! Composition of sessions.
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -10,6 +11,7 @@ use periplus_sim::{
     TopicFilter, compute_topics,
 };
 
+use crate::description::describe;
 use crate::error::RunError;
 use crate::network::{GazeboConnection, GazeboSettings, Ros2Connection, Ros2Reach};
 use crate::nodes::{EstimatorRequest, Estimators, RobotProfile};
@@ -36,6 +38,7 @@ pub struct SessionBuilder {
     search: Search,
     recording: Option<RecordingRequest>,
     records_truth: bool,
+    command: Option<String>,
     computed: Option<TopicFilter>,
     driver: Driver,
     estimators: Option<EstimatorRequest>,
@@ -58,6 +61,7 @@ impl SessionBuilder {
             search: Search::default(),
             recording: None,
             records_truth: false,
+            command: None,
             computed: None,
             driver: Driver::default(),
             estimators: None,
@@ -106,6 +110,13 @@ impl SessionBuilder {
     #[must_use]
     pub fn recording_truth(mut self, records_truth: bool) -> Self {
         self.records_truth = records_truth;
+        self
+    }
+
+    /// Command that runs this session, for its recordings: without options that do not change the result.
+    #[must_use]
+    pub fn command(mut self, command: Option<String>) -> Self {
+        self.command = command;
         self
     }
 
@@ -160,6 +171,7 @@ impl SessionBuilder {
     pub fn build(mut self) -> Result<SimulationSession, RunError> {
         let files = Arc::new(AssetFiles::default());
         let options = std::mem::take(&mut self.options);
+        let description = describe(&self.composition, &options, self.command.as_deref());
         let mut simulation = Simulation::new(&mut self.composition, files, options);
         let is_whole = self.print_file_findings()?;
         if let Some(missing) = self.composition.missing() {
@@ -168,9 +180,14 @@ impl SessionBuilder {
         let request = self.estimators.take();
         let profile = request.as_ref().map(|it| it.detect(&mut simulation, self.is_quiet));
         let profile = profile.transpose()?.flatten();
-        let recorder =
-            self.recording.take().map(|request| record(&simulation, request, self.records_truth));
+        let recorder = self
+            .recording
+            .take()
+            .map(|request| record(&simulation, request, self.records_truth, description.clone()));
         let recorder = recorder.transpose()?;
+        if let Some(page) = &mut self.page {
+            page.context.description.clone_from(&description);
+        }
         if let Some(topics) = self.computed.take() {
             compute_topics(&simulation, topics);
         }
@@ -190,6 +207,7 @@ impl SessionBuilder {
             profile,
             services,
             recorder,
+            description,
             driver: self.driver,
             simulation,
             start: self.start,
@@ -266,9 +284,10 @@ fn record(
     simulation: &Simulation,
     request: RecordingRequest,
     records_truth: bool,
+    description: BTreeMap<String, String>,
 ) -> Result<SimulationRecorder, RunError> {
     let RecordingRequest { path, wanted } = request;
-    let recorder = SimulationRecorder::start(simulation, &path, wanted)
+    let recorder = SimulationRecorder::start(simulation, &path, wanted, description)
         .map_err(|error| RunError::Recording { path, error })?;
     if records_truth {
         recorder.with_truth(simulation).map_err(RunError::Services)

@@ -1,4 +1,6 @@
-//! Difference of two recordings: their maps and trajectories.
+//! Difference of two recordings: their topics, maps and trajectories.
+
+mod topics;
 
 use periplus_bags::files::{Bag, BagError};
 use periplus_geometry::Pose2;
@@ -8,6 +10,8 @@ use periplus_msgs::nav_msgs;
 use serde_json::{Value, json};
 
 use crate::recorded::{RecordedFrames, each, has_type};
+
+pub use topics::{MessageDifference, TopicDifference, ValueDifference, compare_topics};
 
 /// Minimum occupancy of a wall \[%\], as in the maps of `slam_toolbox`.
 const MIN_WALL_OCCUPANCY: i8 = 50;

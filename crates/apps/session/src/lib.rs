@@ -6,6 +6,7 @@
 //! simulation on ROS 2. Progress and findings are printed to stderr.
 
 mod builder;
+mod description;
 pub mod difference;
 mod error;
 pub mod files;

@@ -22,6 +22,7 @@ use periplus_sim::Composition;
 use periplus_web::foxglove::{Hub, Recordings, Settings};
 use periplus_web::server::{TokenError, WebServer, WebServerSettings, token};
 
+use crate::rerun::ReportWriter;
 use crate::terminal;
 
 /// Default port of Foxglove programs.
@@ -50,6 +51,10 @@ pub struct PageContext {
     pub recordings: Vec<PathBuf>,
     /// File to which the page may write the changed world.
     pub world_out: Option<PathBuf>,
+    /// Facts of the run by name, which recordings made by the page contain.
+    pub description: BTreeMap<String, String>,
+    /// Writer of the reports that the page offers; none to offer no reports.
+    pub report: Option<ReportWriter>,
 }
 
 impl PageContext {
@@ -201,7 +206,7 @@ impl Page {
         let around: Vec<PathBuf> =
             context.files.iter().chain(&context.recordings).cloned().collect();
         hub.serve_assets(assets::fetch(&around, &context.resource_path));
-        let recordings = recordings::open(&context.recordings).map_err(PageError::Recording)?;
+        let recordings = recordings::open(context).map_err(PageError::Recording)?;
         hub.serve_recordings(recordings.clone());
         let hub = Arc::new(hub);
         let open =

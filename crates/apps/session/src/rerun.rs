@@ -22,8 +22,10 @@ use periplus_bags::files::{Bag, RecordSettings, Recorder, Storage, WriteSettings
 use periplus_graph::{Graph, TopicInfo};
 use serde_json::Value;
 
+use crate::description::with_version;
+
 pub use self::error::RerunError;
-pub use self::jobs::RerunJobs;
+pub use self::jobs::{ReportWriter, RerunJobs};
 pub use self::parameters::{MAP_FILE, RerunKind, job_parameters};
 
 use self::estimator::Estimator;
@@ -102,7 +104,10 @@ fn run(
             !omitted.contains(&topic.name) && !OMITTED_TOPICS.contains(&topic.name.as_str())
         }),
         clock: playback.log_clock(),
-        ..RecordSettings::all(WriteSettings::new(Storage::Mcap))
+        ..RecordSettings::all(WriteSettings {
+            custom_data: facts(request),
+            ..WriteSettings::new(Storage::Mcap)
+        })
     };
     let recorder = Recorder::start(&graph, &request.out, settings).map_err(RerunError::Result)?;
     while playback.step()? {
@@ -120,6 +125,19 @@ fn run(
     faults.extend(estimator.problems());
     progress(1.0);
     Ok(RerunSummary { played: playback.count(), recorded, faults })
+}
+
+/// Facts of a rerun that its result contains: the estimator, its recording by name, and the changed parameters.
+fn facts(request: &RerunRequest) -> BTreeMap<String, String> {
+    let name = request.recording.file_name().unwrap_or_default().to_string_lossy();
+    let mut facts = BTreeMap::from([
+        ("rerun".to_owned(), request.kind.name().to_owned()),
+        ("source".to_owned(), name.into_owned()),
+    ]);
+    for (name, value) in &request.parameters {
+        facts.insert(format!("param {name}"), value.to_string());
+    }
+    with_version(facts)
 }
 
 /// Removes the file of a run that did not end.

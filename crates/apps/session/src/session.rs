@@ -1,6 +1,7 @@
 //! Running sessions.
 
 use std::cell::RefCell;
+use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
@@ -77,6 +78,8 @@ pub(crate) struct SessionParts {
     pub(crate) profile: Option<RobotProfile>,
     pub(crate) services: Services,
     pub(crate) recorder: Option<SimulationRecorder>,
+    /// Facts of the run that its recordings contain.
+    pub(crate) description: BTreeMap<String, String>,
     pub(crate) driver: Driver,
     pub(crate) simulation: Simulation,
     /// Start of the program.

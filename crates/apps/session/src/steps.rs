@@ -57,7 +57,8 @@ impl SimulationSession {
         let RecordingRequest { path, wanted } = request;
         let failed = |error| RunError::Recording { path: path.clone(), error };
         self.stop_recording().map_err(failed)?;
-        let started = SimulationRecorder::start(&self.parts.simulation, &path, wanted);
+        let description = self.parts.description.clone();
+        let started = SimulationRecorder::start(&self.parts.simulation, &path, wanted, description);
         self.parts.recorder = Some(started.map_err(failed)?);
         Ok(())
     }

@@ -2,11 +2,13 @@
 
 mod read;
 
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use crate::QosProfile;
 use crate::qos;
 
+pub(crate) use read::embedded_custom_data;
 pub use read::{Metadata, read_metadata};
 
 /// Version of the metadata. The messages are the same in all versions.
@@ -57,6 +59,8 @@ pub struct BagInfo {
     pub files: Vec<FileInfo>,
     /// Name of the ROS distribution of the message definitions, such as `jazzy`; may be empty.
     pub ros_distro: String,
+    /// Facts of the recorder by name, such as the world of a simulation; `custom_data` in ROS 2 Jazzy.
+    pub custom_data: BTreeMap<String, String>,
 }
 
 /// A topic of a bag.
@@ -142,7 +146,11 @@ impl BagInfo {
             line(&format!("    message_count: {}", file.messages));
         }
         if style == Style::Jazzy {
-            line("custom_data: ~");
+            let is_empty = self.custom_data.is_empty();
+            line(&format!("custom_data:{}", if is_empty { " ~" } else { "" }));
+            for (name, value) in &self.custom_data {
+                line(&format!("  {}: {}", quoted(name), quoted(value)));
+            }
             line(&format!("ros_distro: {}", quoted(&self.ros_distro)));
         }
         yaml

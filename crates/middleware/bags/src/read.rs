@@ -5,6 +5,7 @@
 //! decompressed. Chunks are decompressed on demand, so that memory does not grow with the file.
 
 mod block;
+mod front;
 mod messages;
 mod source;
 mod summary;
@@ -123,6 +124,7 @@ pub struct Reader<R> {
     faults: Vec<Fault>,
     has_summary: bool,
     messages: Option<u64>,
+    custom_data: BTreeMap<String, String>,
 }
 
 /// Content of a file, from its summary or from a scan.
@@ -165,7 +167,9 @@ impl<R: Read + Seek> Reader<R> {
         let mut source = Source::new(source)?;
         let start = source.bytes(0, 16)?;
         let mut faults = Vec::new();
+        let mut custom_data = BTreeMap::new();
         let found = if start.starts_with(&MAGIC) {
+            custom_data = front::custom_data(&mut source)?;
             mcap(&mut source, &limits, &mut faults)?
         } else if start.starts_with(ros1::MAGIC) {
             ros1::read(&mut source, &limits, &mut faults)?
@@ -184,7 +188,14 @@ impl<R: Read + Seek> Reader<R> {
             faults,
             has_summary,
             messages,
+            custom_data,
         })
+    }
+
+    /// Facts that the recorder wrote by name.
+    #[cfg(feature = "files")]
+    pub(crate) fn custom_data(&self) -> &BTreeMap<String, String> {
+        &self.custom_data
     }
 
     /// Blocks in the order of their start times, and the topic of each channel.

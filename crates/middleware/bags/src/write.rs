@@ -10,6 +10,7 @@ mod line;
 mod sealer;
 mod topics;
 
+use std::collections::BTreeMap;
 use std::fmt;
 use std::io::{self, Write};
 
@@ -41,6 +42,8 @@ pub struct Settings {
     pub threads: usize,
     /// Name of the ROS distribution of the message definitions; may be empty.
     pub ros_distro: String,
+    /// Facts of the recorder by name.
+    pub custom_data: BTreeMap<String, String>,
 }
 
 impl Settings {
@@ -55,6 +58,7 @@ impl Settings {
             chunk_bytes: 4 << 20,
             threads: 1,
             ros_distro: String::new(),
+            custom_data: BTreeMap::new(),
         }
     }
 }

@@ -99,7 +99,8 @@ struct BagSink(Arc<Shared>);
 
 impl SimulationRecorder {
     /// Starts a bag: a file if the path ends in `.mcap` (an existing one is replaced), otherwise a
-    /// new folder with a file and its `metadata.yaml`, like `ros2 bag`.
+    /// new folder with a file and its `metadata.yaml`, like `ros2 bag`. `custom_data` are facts of the
+    /// run by name, for the metadata.
     ///
     /// # Errors
     /// When the file cannot be created, or the folder exists.
@@ -107,6 +108,7 @@ impl SimulationRecorder {
         simulation: &Simulation,
         path: &Path,
         wanted: TopicFilter,
+        custom_data: BTreeMap<String, String>,
     ) -> Result<Self, RecordError> {
         let is_file = path.extension().is_some_and(|extension| extension == "mcap");
         let folder = (!is_file).then(|| path.to_owned());
@@ -124,8 +126,8 @@ impl SimulationRecorder {
         };
         let name = file.file_name().map(|name| name.to_string_lossy().into_owned());
         let sink = File::create(&file).map_err(|error| RecordError::File(file.clone(), error))?;
-        let writer = Writer::new(sink, Settings::new(name.unwrap_or_default()))
-            .map_err(RecordError::Write)?;
+        let settings = Settings { custom_data, ..Settings::new(name.unwrap_or_default()) };
+        let writer = Writer::new(sink, settings).map_err(RecordError::Write)?;
         let state = State {
             writer: Some(writer),
             topics: BTreeMap::new(),

@@ -616,3 +616,46 @@ fn what_a_client_hears_of_others_follows_what_they_offer() {
     hub.set_network_endpoints(far("/scan", Some(Qos::sensor_data()), None));
     assert!(Qos::sensor_data().incompatible_policies(&asked()).is_empty());
 }
+
+#[test]
+fn definitions_of_types_come_from_the_program() {
+    let graph = Graph::new();
+    let hub = open(&graph);
+    let mut client = Client::join(&hub);
+    let mut ask = |name: &str| {
+        client.say(&json!({"op": "fetchSchema", "requestId": 3, "schemaName": name}));
+        client.hears("schema")
+    };
+    let twist = ask("geometry_msgs/Twist");
+    assert!(twist["schema"].as_str().expect("a text").contains("linear"), "{twist}");
+    assert_eq!(ask("x/msg/Nothing")["schema"], Value::Null);
+    let names = ask("")["names"].as_array().expect("names").clone();
+    assert!(names.contains(&json!("std_msgs/msg/String")), "{} names", names.len());
+}
+
+#[test]
+fn a_topic_of_a_client_can_be_latched() {
+    let graph = Graph::new();
+    let hub = open(&graph);
+    let mut client = Client::join(&hub);
+    let text = periplus_msgs::std_msgs::String { data: "kept".into() };
+    for (id, topic, is_latched) in [(1_u32, "/kept", true), (2, "/gone", false)] {
+        client.say(
+            &json!({"op": "advertise", "channels": [{"id": id, "topic": topic, "encoding": "cdr",
+            "schemaName": "std_msgs/msg/String", "isLatched": is_latched}]}),
+        );
+        let mut message = vec![1];
+        message.extend(id.to_le_bytes());
+        message.extend(text.to_cdr().expect("CDR"));
+        client.0.binary(&message);
+    }
+    graph.settle();
+    let node = graph.node(NodeSettings::new("late")).expect("a node");
+    let mailboxes = ["/kept", "/gone"].map(|topic| {
+        let qos = if topic == "/kept" { Qos::latched(1) } else { Qos::reliable(1) };
+        node.mailbox::<periplus_msgs::std_msgs::String>(topic, qos).expect("a mailbox")
+    });
+    graph.settle();
+    let counts = mailboxes.map(|mailbox| mailbox.drain().len());
+    assert_eq!(counts, [1, 0]);
+}

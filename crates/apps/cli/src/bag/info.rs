@@ -59,6 +59,7 @@ fn report(info: &Info) -> Value {
         "bytes": info.bytes,
         "storage": info.storage.identifier(),
         "ros_distro": info.ros_distro,
+        "custom_data": info.custom_data,
         "compression_format": info.packing.0,
         "compression_mode": info.packing.1,
         "start_ns": info.span_ns.map(|(start_ns, _)| start_ns),

@@ -49,6 +49,10 @@ fn record(options: &RecordOptions, live: &mut LiveGraph) -> Result<(), BagError>
         ..RecordSettings::all(WriteSettings {
             // The name that rosbag2 gives to the recorder.
             ros_distro: Machine.variable("ROS_DISTRO").unwrap_or_default(),
+            custom_data: BTreeMap::from([(
+                "periplus".to_owned(),
+                env!("CARGO_PKG_VERSION").to_owned(),
+            )]),
             ..options.write.settings(&output, Storage::Mcap)
         })
     };

@@ -77,6 +77,8 @@ pub(super) struct Launched {
     /// Folder of built-in programs that its processes find at the end of the PATH.
     pub(super) tools: Option<PathBuf>,
     pub(super) start: Stopwatch,
+    /// The command, for recordings.
+    pub(super) recorded: String,
 }
 
 /// Runs the plan.

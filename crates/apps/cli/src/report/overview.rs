@@ -43,6 +43,9 @@ pub(super) fn section(run: &OpenRun) -> Result<Section, CliError> {
     if !bag.ros_distro().is_empty() {
         rows.push_str(&row("ROS distribution", bag.ros_distro()));
     }
+    for (name, value) in bag.custom_data() {
+        rows.push_str(&row(&label_of(name), value));
+    }
     let mut body = format!(
         "<div class=\"facts\">{}</div>",
         table(&run.heading("What was recorded"), &[], &rows)
@@ -57,6 +60,18 @@ pub(super) fn section(run: &OpenRun) -> Result<Section, CliError> {
         body.push_str(&format!("<ul class=\"warning\">\n{}</ul>\n", items.collect::<String>()));
     }
     Ok(Section { title: run.heading("Overview"), body })
+}
+
+/// Returns the label of a fact of the recorder.
+fn label_of(name: &str) -> String {
+    match name {
+        "command" => "Command".to_owned(),
+        "periplus" => "Version of Periplus".to_owned(),
+        "robots" => "Robot files".to_owned(),
+        "seed" => "Seed".to_owned(),
+        "world" => "World file".to_owned(),
+        other => other.to_owned(),
+    }
 }
 
 /// Returns the names of the worlds, from the topics `/world/<name>/...`.

@@ -1,26 +1,39 @@
-//! Reruns as jobs of the page.
+//! Jobs of the page: reruns, reports, differences.
 
-use std::path::PathBuf;
+use std::fmt;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
+use periplus_bags::files::Bag;
 use periplus_web::foxglove::{JobError, JobRequest, Jobs};
 use serde_json::Value;
 
+use crate::difference::{RecordingDifference, TopicDifference, compare_topics};
+
 use super::{RerunError, RerunKind, RerunRequest, job_parameters, rerun};
 
-/// Runs the jobs of the page, and writes their results to a folder.
-#[derive(Debug)]
+/// Writes a report of one recording, or of two, as an HTML document. The command line has the
+/// reports, which need more than a session does.
+pub type ReportWriter = fn(&[&Path]) -> Result<String, JobError>;
+
+/// Runs the jobs of the page.
 pub struct RerunJobs {
-    folder: PathBuf,
+    report: Option<ReportWriter>,
     /// Number of jobs that were started.
     count: AtomicU64,
 }
 
 impl RerunJobs {
-    /// Writes results to a folder that exists.
+    /// Jobs of a page; without a writer it offers no reports.
     #[must_use]
-    pub fn new(folder: impl Into<PathBuf>) -> Self {
-        Self { folder: folder.into(), count: AtomicU64::new(0) }
+    pub fn new(report: Option<ReportWriter>) -> Self {
+        Self { report, count: AtomicU64::new(0) }
+    }
+}
+
+impl fmt::Debug for RerunJobs {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("RerunJobs").field("count", &self.count).finish_non_exhaustive()
     }
 }
 
@@ -38,12 +51,12 @@ impl Jobs for RerunJobs {
     ) -> Result<PathBuf, JobError> {
         let kind: RerunKind = job.kind.parse().map_err(failed)?;
         let number = self.count.fetch_add(1, Ordering::Relaxed);
-        let name = format!("periplus-{}-{}-{number}.mcap", kind.name(), std::process::id());
+        let name = format!("{}-{number}.mcap", kind.name());
         let request = RerunRequest {
             kind,
             recording: job.path.clone(),
             parameters: job.parameters.clone().into_iter().collect(),
-            out: self.folder.join(name),
+            out: job.out_folder.join(name),
         };
         let summary = rerun(&request, progress, is_cancelled).map_err(|error| match error {
             RerunError::Cancelled => JobError::Cancelled,
@@ -53,6 +66,29 @@ impl Jobs for RerunJobs {
             return Err(JobError::Failed(summary.faults.join("; ")));
         }
         Ok(request.out)
+    }
+
+    fn report(&self, paths: &[&Path]) -> Result<String, JobError> {
+        let writer = self.report.ok_or_else(|| {
+            failed("this program writes no reports; use `periplus report` in a terminal")
+        })?;
+        writer(paths)
+    }
+
+    fn difference(
+        &self,
+        first: &Path,
+        second: &Path,
+        is_cancelled: &AtomicBool,
+    ) -> Result<Value, JobError> {
+        let (first, second) =
+            (Bag::open_log(first).map_err(failed)?, Bag::open_log(second).map_err(failed)?);
+        let difference = RecordingDifference::of(&first, &second).map_err(failed)?;
+        let topics = compare_topics(&first, &second, is_cancelled).map_err(failed)?;
+        let Some(topics) = topics else { return Err(JobError::Cancelled) };
+        let mut json = difference.to_json();
+        json["topics"] = topics.iter().map(TopicDifference::to_json).collect();
+        Ok(json)
     }
 }
 

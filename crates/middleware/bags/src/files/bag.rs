@@ -222,6 +222,15 @@ impl Bag {
         self.parts.iter().map(|part| &*part.ros_distro).find(|name| !name.is_empty()).unwrap_or("")
     }
 
+    /// Facts that the recorder wrote by name, such as the command and the world of a simulation.
+    #[must_use]
+    pub fn custom_data(&self) -> &BTreeMap<String, String> {
+        static NONE: BTreeMap<String, String> = BTreeMap::new();
+        let of_folder = self.metadata.as_ref().map(|metadata| &metadata.info.custom_data);
+        let of_parts = self.parts.iter().map(|part| &part.custom_data);
+        of_folder.into_iter().chain(of_parts).find(|data| !data.is_empty()).unwrap_or(&NONE)
+    }
+
     /// True if every file was closed properly.
     #[must_use]
     pub fn is_whole(&self) -> bool {
@@ -257,7 +266,12 @@ impl Bag {
             messages: part.counts.iter().sum(),
         };
         let files = self.parts.iter().map(file).collect();
-        crate::BagInfo { topics, files, ros_distro: self.ros_distro().to_owned() }
+        crate::BagInfo {
+            topics,
+            files,
+            ros_distro: self.ros_distro().to_owned(),
+            custom_data: self.custom_data().clone(),
+        }
     }
 
     /// Rewrites `metadata.yaml` from the files.

@@ -1,5 +1,7 @@
 //! Conversion of bags.
 
+use std::collections::BTreeMap;
+
 use crate::{BagInfo, Selection, Stamp, Target, Translation};
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 
@@ -44,7 +46,8 @@ pub fn convert(
     let target =
         if conversion.write.storage == Storage::Ros1 { Target::Ros1 } else { Target::Ros2 };
     let mut findings = Diagnostics::new();
-    let mut writer = BagWriter::create(output, conversion.write)?;
+    let custom_data = common_data(bags, &conversion.write);
+    let mut writer = BagWriter::create(output, WriteSettings { custom_data, ..conversion.write })?;
     let mut inputs = Vec::new();
     for bag in bags {
         inputs.push(Input::new(bag, &conversion.selection, target, &mut writer, &mut findings)?);
@@ -64,6 +67,14 @@ pub fn convert(
         }
     }
     Ok(Report { info: writer.finish()?, bytes, findings })
+}
+
+/// Facts of the recorders that all bags have, and those of the settings.
+fn common_data(bags: &[Bag], write: &WriteSettings) -> BTreeMap<String, String> {
+    let mut data = bags.first().map(Bag::custom_data).cloned().unwrap_or_default();
+    data.retain(|name, value| bags.iter().all(|bag| bag.custom_data().get(name) == Some(value)));
+    data.extend(write.custom_data.clone());
+    data
 }
 
 /// Index of the bag with the earliest next message.

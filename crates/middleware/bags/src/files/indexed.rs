@@ -14,6 +14,7 @@ mod progress;
 mod read_chunks;
 mod stream_file;
 
+use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -65,6 +66,7 @@ pub struct IndexedBag {
     counts: Vec<u64>,
     span_ns: Option<(i64, i64)>,
     bytes: u64,
+    custom_data: BTreeMap<String, String>,
     findings: Diagnostics,
     files: Vec<IndexedFile>,
     /// Conversion of each topic; none if its messages stay as they are.
@@ -146,6 +148,12 @@ impl IndexedBag {
     #[must_use]
     pub fn bytes(&self) -> u64 {
         self.bytes
+    }
+
+    /// Facts that the recorder wrote by name.
+    #[must_use]
+    pub fn custom_data(&self) -> &BTreeMap<String, String> {
+        &self.custom_data
     }
 
     /// Problems found while opening.

@@ -1,5 +1,6 @@
 //! Summary of a bag, as printed by `ros2 bag info` and as JSON.
 
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use crate::files::{Bag, Storage};
@@ -15,6 +16,8 @@ pub struct Info {
     pub storage: Storage,
     /// ROS distribution that recorded it; may be empty.
     pub ros_distro: String,
+    /// Facts that the recorder wrote by name.
+    pub custom_data: BTreeMap<String, String>,
     /// Times of the first and last message \[ns\].
     pub span_ns: Option<(i64, i64)>,
     /// Number of messages.
@@ -63,6 +66,7 @@ impl Info {
             bytes: bag.bytes(),
             storage: bag.storage(),
             ros_distro: bag.ros_distro().to_owned(),
+            custom_data: bag.custom_data().clone(),
             span_ns: bag.span_ns(),
             messages: bag.message_count(),
             topics,
@@ -94,6 +98,9 @@ impl Info {
         line("Start:", &moment(start_ns));
         line("End:", &moment(end_ns));
         line("Messages:", &self.messages.to_string());
+        for (name, value) in &self.custom_data {
+            line("Custom data:", &format!("{name}: {value}"));
+        }
         let topics: Vec<String> = self
             .topics
             .iter()

@@ -1,5 +1,6 @@
 //! A file of a bag.
 
+use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{Read, Seek};
 use std::path::{Path, PathBuf};
@@ -27,6 +28,7 @@ pub(crate) struct Part {
     pub(crate) is_whole: bool,
     pub(crate) bytes: u64,
     pub(crate) ros_distro: String,
+    pub(crate) custom_data: BTreeMap<String, String>,
 }
 
 impl Part {
@@ -116,6 +118,7 @@ pub(crate) fn look_at<R: Read + Seek>(
         is_whole: reader.has_summary(),
         bytes: 0,
         ros_distro: String::new(),
+        custom_data: reader.custom_data().clone(),
     })
 }
 

@@ -200,7 +200,12 @@ impl BagWriter {
             files.push(self.current.clone());
         }
         let topics = self.topics.iter().map(|(_, info)| info.clone()).collect();
-        BagInfo { topics, files, ros_distro: self.settings.ros_distro.clone() }
+        BagInfo {
+            topics,
+            files,
+            ros_distro: self.settings.ros_distro.clone(),
+            custom_data: self.settings.custom_data.clone(),
+        }
     }
 
     fn stored(&self) -> Stored {

@@ -1,5 +1,7 @@
 //! Parser for `metadata.yaml` of any version.
 
+use std::collections::BTreeMap;
+
 use periplus_diagnostics::{Diagnostic, Diagnostics, FileId, SourceMap};
 use periplus_yaml::YamlNode;
 
@@ -53,6 +55,7 @@ pub fn read_metadata(
         topics: topics.iter().map(topic_info).collect(),
         files,
         ros_distro: text(bag, "ros_distro"),
+        custom_data: custom_data(bag),
     };
     Some(Metadata {
         version: bag.get("version").and_then(YamlNode::integer).unwrap_or(0),
@@ -65,6 +68,23 @@ pub fn read_metadata(
 
 fn text(node: &YamlNode, name: &str) -> String {
     node.get(name).and_then(YamlNode::text).unwrap_or_default().to_owned()
+}
+
+/// Texts of `custom_data`; it is null if there are none.
+fn custom_data(bag: &YamlNode) -> BTreeMap<String, String> {
+    let entries = bag.get("custom_data").and_then(YamlNode::entries).unwrap_or_default();
+    let text = |node: &YamlNode| node.text().map(str::to_owned);
+    entries.iter().filter_map(|(name, value)| Some((text(name)?, text(value)?))).collect()
+}
+
+/// Parses the metadata that a file contains: `metadata.yaml` without its first line in MCAP, all of it in databases.
+/// None if it is damaged.
+pub(crate) fn embedded_custom_data(text: &str) -> Option<BTreeMap<String, String>> {
+    let mut sources = SourceMap::new();
+    let file = sources.add("metadata".to_owned(), text.to_owned());
+    let node = periplus_yaml::parse(file, &sources).ok()??;
+    let bag = node.get("rosbag2_bagfile_information").unwrap_or(&node);
+    Some(custom_data(bag))
 }
 
 fn count(node: &YamlNode) -> u64 {

@@ -240,7 +240,7 @@ impl<W: Write + Seek> Ros1Writer<W> {
             span_ns: span.map(|(start, end)| (signed(start), signed(end))),
             messages: topics.iter().map(|topic| topic.messages).sum(),
         };
-        Ok((self.sink, BagInfo { topics, files: vec![file], ros_distro: String::new() }))
+        Ok((self.sink, BagInfo { topics, files: vec![file], ..BagInfo::default() }))
     }
 }
 

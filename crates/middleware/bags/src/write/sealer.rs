@@ -58,7 +58,11 @@ impl<W: Write> Sealer<W> {
             scratch: Vec::new(),
         };
         sealer.out.put(&head)?;
-        let info = BagInfo { ros_distro: settings.ros_distro.clone(), ..BagInfo::default() };
+        let info = BagInfo {
+            ros_distro: settings.ros_distro.clone(),
+            custom_data: settings.custom_data.clone(),
+            ..BagInfo::default()
+        };
         sealer.put_metadata(&info, settings)?;
         sealer.out.sink.flush()?;
         Ok(sealer)
@@ -145,6 +149,7 @@ impl<W: Write> Sealer<W> {
             topics: topics.infos.clone(),
             files: vec![file],
             ros_distro: settings.ros_distro.clone(),
+            custom_data: settings.custom_data.clone(),
         };
         self.put_metadata(&info, settings)?;
 

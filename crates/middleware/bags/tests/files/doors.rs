@@ -1,12 +1,13 @@
 //! Opening and conversion of all kinds of bags.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
 use crate::common::{Folder, Row, numbers, rows, write_numbers};
 use periplus_bags::files::{
-    Bag, BagError, BagKind, ChunkPacking, Conversion, Info, Packing, PackingMode, Storage,
-    WriteSettings, convert,
+    Bag, BagError, BagKind, ChunkPacking, Conversion, IndexedBag, Info, OpenProgress, Packing,
+    PackingMode, Storage, WriteSettings, convert,
 };
 use periplus_bags::{Selection, Style};
 
@@ -273,6 +274,50 @@ fn what_cannot_be_is_refused() {
     fs::create_dir(folder.path("empty")).unwrap();
     assert!(matches!(Bag::open(folder.path("empty")), Err(BagError::NoBag(..))));
     assert!(matches!(Bag::open(folder.path("nowhere")), Err(BagError::File(..))));
+}
+
+/// Facts of a recorder, with characters that YAML quotes.
+fn facts() -> BTreeMap<String, String> {
+    let facts = [("command", "periplus sim 'my world.sdf' -p a:=b"), ("world", "house: \"x\"\n#")];
+    facts.map(|(name, value)| (name.to_owned(), value.to_owned())).into()
+}
+
+#[test]
+fn facts_of_the_recorder_are_kept_in_every_kind_that_has_room() {
+    let folder = Folder::new("facts");
+    let source = folder.path("source.mcap");
+    write_numbers(&source, WriteSettings { custom_data: facts(), ..settings(Storage::Mcap) });
+    for (name, write) in ways() {
+        let has_room = write.storage != Storage::Ros1 && write.style == Style::Jazzy;
+        let expected = if has_room { facts() } else { BTreeMap::new() };
+        let path = folder.path(name);
+        let bag = Bag::open(&source).unwrap();
+        let conversion = Conversion { selection: Selection::default(), write };
+        convert(&[bag], &path, conversion, &mut |_| {}).unwrap();
+        assert_eq!(Bag::open(&path).unwrap().custom_data(), &expected, "{name}");
+        let indexed = IndexedBag::open(&path, &OpenProgress::default()).unwrap();
+        assert_eq!(indexed.custom_data(), &expected, "{name}");
+    }
+    // Without metadata.yaml the files have them.
+    fs::remove_file(folder.path("folder").join("metadata.yaml")).unwrap();
+    assert_eq!(Bag::open(folder.path("folder")).unwrap().custom_data(), &facts());
+}
+
+#[test]
+fn joined_recordings_keep_the_facts_that_they_share() {
+    let folder = Folder::new("shared_facts");
+    let with = |name: &str, seed: &str| {
+        let mut custom_data = facts();
+        custom_data.insert("seed".to_owned(), seed.to_owned());
+        let path = folder.path(name);
+        write_numbers(&path, WriteSettings { custom_data, ..settings(Storage::Mcap) });
+        Bag::open(&path).unwrap()
+    };
+    let bags = [with("a.mcap", "1"), with("b.mcap", "2")];
+    let write = settings(Storage::Mcap);
+    let conversion = Conversion { selection: Selection::default(), write };
+    convert(&bags, folder.path("both.mcap"), conversion, &mut |_| {}).unwrap();
+    assert_eq!(Bag::open(folder.path("both.mcap")).unwrap().custom_data(), &facts());
 }
 
 #[test]

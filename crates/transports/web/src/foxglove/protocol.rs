@@ -12,13 +12,13 @@ pub use recordings::{
     TopicText, UploadFile,
 };
 pub(crate) use recordings::{
-    density, fetch_failure, job_parameters, marks, recordings, series, upload_progress,
-    upload_started,
+    density, difference, fetch_failure, file_head, file_part, job_parameters, marks, recordings,
+    report, series, upload_progress, upload_started,
 };
 pub use server::{
     AssetAnswer, AssetError, ChannelText, ConnectionGraph, MismatchText, PartyText, PolicyText,
     QosRepairError, ServiceText, StatusLevel, advertise, advertise_services, asset,
-    connection_graph, message_head, parameters, remove_status, repair_result, schema_of,
+    connection_graph, message_head, parameters, remove_status, repair_result, schema, schema_of,
     server_info, service_answer, service_failure, status, time, unadvertise, unadvertise_services,
 };
 

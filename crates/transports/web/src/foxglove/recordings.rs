@@ -9,6 +9,7 @@ mod client;
 mod density;
 mod entry;
 mod fetch;
+mod file;
 mod jobs;
 mod latched;
 mod live;
@@ -18,6 +19,7 @@ mod number_path;
 mod series;
 mod service;
 mod state;
+mod summary;
 mod transform_index;
 mod upload;
 

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use periplus_graph::{Qos, RawPublisher};
+use periplus_msgs::TypeRegistry;
 use periplus_transport::lock;
 
 use crate::foxglove::frame::WebSocketFrame;
@@ -110,6 +111,15 @@ impl ClientSession {
                 let assets = lock(&self.shared.assets).clone();
                 self.meshes.request(uri, request_id, assets);
             }
+            ClientText::FetchSchema { request_id, schema_name } => {
+                let types = TypeRegistry::builtin();
+                let text = types.schema_text(&full_type(&schema_name));
+                let names: Vec<&str> = match schema_name.as_str() {
+                    "" => types.type_names().filter(|name| name.contains("/msg/")).collect(),
+                    _ => Vec::new(),
+                };
+                self.say(protocol::schema(request_id, &schema_name, text, &names));
+            }
             ClientText::RepairQos { id, topic, publisher, subscription } => {
                 let mut state = lock(&self.shared.state);
                 let outcome = state.repair(&self.shared, &topic, &publisher, &subscription);
@@ -160,7 +170,7 @@ impl ClientSession {
     }
 
     fn advertise(&mut self, channel: &ClientChannel) {
-        let ClientChannel { id, topic, encoding, schema_name } = channel;
+        let ClientChannel { id, topic, encoding, schema_name, is_latched } = channel;
         if encoding != "cdr" {
             return self.refuse(&format!(
                 "`{topic}` is advertised with encoding {encoding}; only cdr is supported"
@@ -173,9 +183,9 @@ impl ClientSession {
             return self.refuse("there are too many channels");
         }
         let type_name = full_type(schema_name);
-        let hash = periplus_msgs::TypeRegistry::builtin().hash(&type_name);
-        let made =
-            self.shared.node.raw_publisher(topic, &type_name, hash.as_deref(), Qos::reliable(10));
+        let hash = TypeRegistry::builtin().hash(&type_name);
+        let qos = if *is_latched { Qos::latched(1) } else { Qos::reliable(10) };
+        let made = self.shared.node.raw_publisher(topic, &type_name, hash.as_deref(), qos);
         match made {
             Ok(publisher) => {
                 self.publishing.insert(*id, publisher);

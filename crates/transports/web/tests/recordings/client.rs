@@ -119,6 +119,26 @@ impl Client {
         self.hears(&["fetchFailure"])["message"].as_str().unwrap().to_owned()
     }
 
+    /// The parts of a file, joined.
+    #[track_caller]
+    pub(crate) fn file(&self, request_id: u32) -> Vec<u8> {
+        let mut file = Vec::new();
+        loop {
+            let OutboxItem::Frame(frame) = self.0.outbox().take(SOON) else {
+                panic!("no part came")
+            };
+            let bytes = frame.parts().concat();
+            if frame.kind() == FrameKind::Text || bytes[0] != 0x12 {
+                continue;
+            }
+            assert_eq!(u32_at(&bytes, 1), request_id);
+            file.extend_from_slice(&bytes[6..]);
+            if bytes[5] & 1 == 1 {
+                return file;
+            }
+        }
+    }
+
     /// The messages of an answer.
     #[track_caller]
     pub(crate) fn answer(&self, request_id: u32) -> Answer {

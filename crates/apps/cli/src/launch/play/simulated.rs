@@ -69,6 +69,7 @@ pub(super) fn run(
         .factor(factor)
         .search(bringup.search().clone())
         .recording(options.recorded.recording(options.record.as_deref()))
+        .command(Some(launched.recorded))
         .recording_truth(options.recorded.records_truth())
         .ros2(options.ros2.map(Into::into))
         .page(page)

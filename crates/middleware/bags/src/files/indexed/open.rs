@@ -116,6 +116,7 @@ fn look(path: &Path, progress: &OpenProgress) -> Result<(Part, Pending), BagErro
                 faults: summary.faults,
                 bytes,
                 ros_distro: summary.ros_distro,
+                custom_data: summary.custom_data,
             };
             (part, Pending::Database { copy, table })
         }
@@ -162,6 +163,7 @@ fn assemble(
         counts: bag.counts().to_vec(),
         span_ns: bag.span_ns(),
         bytes: bag.bytes(),
+        custom_data: bag.custom_data().clone(),
         findings,
         files,
         translations: Vec::new(),

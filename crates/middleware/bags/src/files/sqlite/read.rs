@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, VecDeque};
 use std::path::{Path, PathBuf};
 
+use crate::metadata::embedded_custom_data;
 use crate::{BagTopic, Message, Selection};
 use rusqlite::config::DbConfig;
 use rusqlite::{Connection, OpenFlags, OptionalExtension as _};
@@ -23,6 +24,7 @@ pub(crate) struct Database {
     ids: Vec<i64>,
     topics: Vec<BagTopic>,
     ros_distro: String,
+    custom_data: BTreeMap<String, String>,
     /// True if times are indexed, so that no sorting is needed.
     is_indexed: bool,
 }
@@ -35,6 +37,7 @@ pub(super) struct DatabaseParts {
     pub(super) topic_ids: Vec<i64>,
     pub(super) topics: Vec<BagTopic>,
     pub(super) ros_distro: String,
+    pub(super) custom_data: BTreeMap<String, String>,
 }
 
 impl Database {
@@ -51,6 +54,7 @@ impl Database {
             ids: Vec::new(),
             topics: Vec::new(),
             ros_distro: String::new(),
+            custom_data: BTreeMap::new(),
             is_indexed: false,
         };
         database.describe(&tables).map_err(BagError::database(path))?;
@@ -65,6 +69,13 @@ impl Database {
             let query = "SELECT ros_distro FROM schema LIMIT 1";
             let distro = self.connection.query_row(query, [], |row| row.get(0)).optional()?;
             self.ros_distro = distro.unwrap_or_default();
+        }
+        if has("metadata", "metadata") {
+            let query = "SELECT metadata FROM metadata ORDER BY rowid DESC LIMIT 1";
+            // A damaged table loses the facts, not the messages.
+            let stored = self.connection.query_row(query, [], |row| text(row, 0)).ok();
+            self.custom_data =
+                stored.and_then(|text| embedded_custom_data(&text)).unwrap_or_default();
         }
         let column = |name: &str| if has("topics", name) { name.to_owned() } else { "''".into() };
         let query = format!(
@@ -121,6 +132,7 @@ impl Database {
             topic_ids: self.ids,
             topics: self.topics,
             ros_distro: self.ros_distro,
+            custom_data: self.custom_data,
         }
     }
 
@@ -143,6 +155,7 @@ impl Database {
             faults,
             bytes: 0,
             ros_distro: self.ros_distro,
+            custom_data: self.custom_data,
         })
     }
 
@@ -379,7 +392,7 @@ fn open_cut(uri: &str, flags: OpenFlags) -> rusqlite::Result<Connection> {
 /// Columns of the tables; views are ignored.
 fn tables(connection: &Connection) -> rusqlite::Result<BTreeMap<String, Vec<String>>> {
     let mut tables = BTreeMap::new();
-    for name in ["schema", "topics", "messages", "message_definitions"] {
+    for name in ["schema", "metadata", "topics", "messages", "message_definitions"] {
         let query = "SELECT count(*) FROM sqlite_master WHERE type = 'table' AND name = ?1 AND \
                      sql NOT LIKE 'CREATE VIRTUAL%'";
         let count: i64 = connection.query_row(query, [name], |row| row.get(0))?;

@@ -1,5 +1,6 @@
 //! Table of the times of a database, for random access.
 
+use std::collections::BTreeMap;
 use std::ops::{ControlFlow, Range};
 use std::path::PathBuf;
 
@@ -32,6 +33,7 @@ pub(crate) struct TimeSummary {
     pub(crate) span_ns: Option<(i64, i64)>,
     pub(crate) faults: Vec<String>,
     pub(crate) ros_distro: String,
+    pub(crate) custom_data: BTreeMap<String, String>,
 }
 
 impl TimeTable {
@@ -63,6 +65,7 @@ impl TimeTable {
             span_ns,
             faults,
             ros_distro: parts.ros_distro,
+            custom_data: parts.custom_data,
         };
         Ok((table, summary))
     }

@@ -1,6 +1,7 @@
 //! Writer of databases with the schema of `rosbag2_storage_sqlite3` in ROS 2 Jazzy (version 4).
 //! Older versions read it: they query the columns that they know.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use crate::{BagInfo, BagTopic, FileInfo, Stamp, Stored, Style, TopicInformation, WriteError};
@@ -8,12 +9,14 @@ use rusqlite::Connection;
 
 use crate::files::BagError;
 use crate::files::profile::topic_info;
+use crate::files::write::WriteSettings;
 
 /// Writes one database.
 pub(crate) struct SqliteWriter {
     path: PathBuf,
     connection: Connection,
     style: Style,
+    custom_data: BTreeMap<String, String>,
     topics: Vec<TopicInformation>,
     span_ns: Option<(i64, i64)>,
     /// Message time at which the open transaction started \[ns\].
@@ -42,17 +45,12 @@ const TABLES: &str = "
 ";
 
 impl SqliteWriter {
-    /// Creates a file. With `is_live` the file survives a crash at any time, except for the last
-    /// second; without, writing is faster.
-    pub(crate) fn create(
-        path: &Path,
-        style: Style,
-        ros_distro: &str,
-        is_live: bool,
-    ) -> Result<Self, BagError> {
+    /// Creates a file. If the settings are for live recordings, the file survives a crash at any time,
+    /// except for the last second; otherwise writing is faster.
+    pub(crate) fn create(path: &Path, settings: &WriteSettings) -> Result<Self, BagError> {
         let begin = || {
             let connection = Connection::open(path)?;
-            let mode = if is_live {
+            let mode = if settings.is_live {
                 "PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL;"
             } else {
                 "PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF;"
@@ -60,14 +58,15 @@ impl SqliteWriter {
             connection.execute_batch("PRAGMA page_size = 8192;")?;
             connection.execute_batch(mode)?;
             connection.execute_batch(TABLES)?;
-            connection.execute("INSERT INTO schema VALUES (4, ?1)", [ros_distro])?;
+            connection.execute("INSERT INTO schema VALUES (4, ?1)", [&settings.ros_distro])?;
             Ok(connection)
         };
         let connection = begin().map_err(BagError::database(path))?;
         Ok(Self {
             path: path.to_owned(),
             connection,
-            style,
+            style: settings.style,
+            custom_data: settings.custom_data.clone(),
             topics: Vec::new(),
             span_ns: None,
             since_ns: None,
@@ -169,7 +168,12 @@ impl SqliteWriter {
         let name = self.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let messages = self.topics.iter().map(|topic| topic.messages).sum();
         let file = FileInfo { path: name, span_ns: self.span_ns, messages };
-        let info = BagInfo { topics: self.topics, files: vec![file], ros_distro: String::new() };
+        let info = BagInfo {
+            topics: self.topics,
+            files: vec![file],
+            ros_distro: String::new(),
+            custom_data: self.custom_data,
+        };
         let text = info.to_yaml_for(self.style, stored);
         let end = || {
             self.connection.execute(

@@ -64,6 +64,7 @@ impl FileWriter {
                     style: settings.style,
                     threads: settings.threads.max(1),
                     ros_distro: settings.ros_distro.clone(),
+                    custom_data: settings.custom_data.clone(),
                     ..Settings::new(name)
                 };
                 let counted = Counted { file, bytes: bytes.clone() };
@@ -72,8 +73,7 @@ impl FileWriter {
             }
             Storage::Sqlite => {
                 drop(file);
-                let (style, distro) = (settings.style, &settings.ros_distro);
-                let writer = SqliteWriter::create(&path, style, distro, settings.is_live)?;
+                let writer = SqliteWriter::create(&path, settings)?;
                 Self::Sqlite(Box::new(writer))
             }
             Storage::Ros1 => {

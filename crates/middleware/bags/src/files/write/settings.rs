@@ -1,5 +1,6 @@
 //! Settings of bag writers.
 
+use std::collections::BTreeMap;
 use std::io::{self, Read, Write};
 use std::path::Path;
 
@@ -171,6 +172,8 @@ pub struct WriteSettings {
     pub threads: usize,
     /// Name of the ROS distribution; may be empty.
     pub ros_distro: String,
+    /// Facts of the recorder by name; bags of ROS 1 and metadata of Humble have no room for them.
+    pub custom_data: BTreeMap<String, String>,
     /// True if the bag must survive a crash at any time: for recordings, in contrast to
     /// conversions, which can be repeated.
     pub is_live: bool,
@@ -191,6 +194,7 @@ impl WriteSettings {
             style: Style::default(),
             threads: 1,
             ros_distro: String::new(),
+            custom_data: BTreeMap::new(),
             is_live: false,
         }
     }

@@ -86,6 +86,14 @@ pub enum ClientText {
         uri: String,
         /// Id of the response.
         request_id: u32,
+        },
+    /// Requests the definition of a message type, or the names of all types. Extension of Foxglove's
+    /// protocol.
+    FetchSchema {
+        /// Id of the response.
+        request_id: u32,
+        /// Full name of the type; empty for the names.
+        schema_name: String,
     },
     /// A request about recordings. Extension of Foxglove's protocol.
     #[serde(skip)]
@@ -114,6 +122,9 @@ pub struct ClientChannel {
     pub encoding: String,
     /// Message type.
     pub schema_name: String,
+    /// True to keep the last message for late subscribers. Extension of Foxglove's protocol.
+    #[serde(default)]
+    pub is_latched: bool,
 }
 
 /// A parameter with its value.

@@ -135,6 +135,29 @@ pub enum ReplayRequest {
         #[serde(default)]
         parameters: serde_json::Map<String, Value>,
     },
+    /// Requests a report of one recording, or of two.
+    FetchReport {
+        /// Id of the response.
+        request_id: u32,
+        /// One or two recordings.
+        recordings: Vec<u32>,
+    },
+    /// Requests the difference of two recordings.
+    FetchDifference {
+        /// Id of the response.
+        request_id: u32,
+        /// First recording.
+        recording: u32,
+        /// Second recording.
+        other: u32,
+    },
+    /// Requests the file of a recording.
+    FetchFile {
+        /// Id of the response.
+        request_id: u32,
+        /// Recording.
+        recording: u32,
+    },
     /// Records the graph.
     StartRecording {
         /// Id of the response.
@@ -170,7 +193,7 @@ pub struct UploadFile {
 
 impl ReplayRequest {
     /// Opcodes of the requests.
-    pub(super) const OPS: [&str; 14] = [
+    pub(super) const OPS: [&str; 17] = [
         "subscribeRecordings",
         "fetchState",
         "fetchMessages",
@@ -183,6 +206,9 @@ impl ReplayRequest {
         "startUpload",
         "fetchJobParameters",
         "startJob",
+        "fetchReport",
+        "fetchDifference",
+        "fetchFile",
         "startRecording",
         "stopRecording",
     ];
@@ -202,6 +228,9 @@ impl ReplayRequest {
             | Self::StartUpload { request_id, .. }
             | Self::FetchJobParameters { request_id, .. }
             | Self::StartJob { request_id, .. }
+            | Self::FetchReport { request_id, .. }
+            | Self::FetchDifference { request_id, .. }
+            | Self::FetchFile { request_id, .. }
             | Self::StartRecording { request_id }
             | Self::StopRecording { request_id } => Some(*request_id),
         }
@@ -236,6 +265,10 @@ pub struct RecordingText {
     pub findings: Vec<String>,
     /// Job that made it.
     pub origin: Option<OriginText>,
+    /// True if its file is removed when it is closed: an upload, or the result of a job.
+    pub is_temporary: bool,
+    /// Facts that the recorder wrote, by name.
+    pub custom_data: BTreeMap<String, String>,
     /// Topics.
     pub topics: Vec<TopicText>,
 }
@@ -353,6 +386,35 @@ pub(crate) fn job_parameters(request_id: u32, kind: &str, parameters: &Value) ->
     }))
 }
 
+/// A report as an HTML document.
+#[must_use]
+pub(crate) fn report(request_id: u32, html: &str) -> WebSocketFrame {
+    text(&json!({"op": "report", "requestId": request_id, "html": html}))
+}
+
+/// Difference of two recordings.
+#[must_use]
+pub(crate) fn difference(request_id: u32, difference: &Value) -> WebSocketFrame {
+    text(&json!({"op": "difference", "requestId": request_id, "difference": difference}))
+}
+
+/// Name and size of a file that follows in parts.
+#[must_use]
+pub(crate) fn file_head(request_id: u32, name: &str, bytes: u64) -> WebSocketFrame {
+    text(&json!({"op": "file", "requestId": request_id, "name": name, "bytes": bytes}))
+}
+
+/// Part of a file.
+#[must_use]
+pub(crate) fn file_part(request_id: u32, part: &[u8], is_last: bool) -> WebSocketFrame {
+    let mut bytes = Vec::with_capacity(6 + part.len());
+    bytes.push(0x12);
+    bytes.extend(request_id.to_le_bytes());
+    bytes.push(if is_last { IS_LAST } else { 0 });
+    bytes.extend_from_slice(part);
+    WebSocketFrame::binary(bytes)
+}
+
 /// Messages of a recording, encoded one after the other.
 #[derive(Debug)]
 pub struct StoredMessages {
@@ -426,6 +488,12 @@ mod tests {
         let mut expected = vec![0x10, 7, 0, 0, 0, 3, 6, 0, 0, 0, 0, 0, 0, 0];
         expected.extend([3, 0, 0, 0, 5, 0, 0, 0, 0, 0, 0, 0, 2, 0, 0, 0, 9, 8]);
         assert_eq!(bytes, expected);
+    }
+
+    #[test]
+    fn a_part_of_a_file_has_its_request_and_flag() {
+        assert_eq!(file_part(258, b"ab", false).parts().concat(), b"\x12\x02\x01\0\0\0ab");
+        assert_eq!(file_part(1, b"", true).parts().concat(), b"\x12\x01\0\0\0\x01");
     }
 
     #[test]

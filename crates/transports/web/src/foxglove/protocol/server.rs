@@ -302,6 +302,21 @@ pub fn repair_result(id: u32, outcome: &Result<String, QosRepairError>) -> WebSo
     }))
 }
 
+/// Definition of a type, null if it is unknown, and the names of types that were requested. Extension of
+/// Foxglove's protocol.
+#[must_use]
+pub fn schema(
+    request_id: u32,
+    schema_name: &str,
+    schema: Option<&str>,
+    names: &[&str],
+) -> WebSocketFrame {
+    text(&json!({
+        "op": "schema", "requestId": request_id, "schemaName": schema_name, "schema": schema,
+        "names": names,
+    }))
+}
+
 /// Header of a message on a channel: subscription id and time of publication.
 #[must_use]
 pub fn message_head(subscription_id: u32, time_ns: i64) -> Vec<u8> {

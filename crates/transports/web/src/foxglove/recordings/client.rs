@@ -14,7 +14,7 @@ use super::marks::MarkWatcher;
 use super::series::SeriesRequest;
 use super::service::Recordings;
 use super::upload::Upload;
-use super::{density, messages, series, state};
+use super::{density, file, messages, series, state, summary};
 use crate::foxglove::fetch_queue::FetchQueue;
 use crate::foxglove::outbox::Outbox;
 use crate::foxglove::protocol::{self, ReplayRequest, StatusLevel};
@@ -156,6 +156,25 @@ impl RecordingClient {
                 self.jobs.insert(request_id, made);
                 Ok(())
             }
+            ReplayRequest::FetchReport { request_id, recordings } => {
+                self.fetch_report(request_id, &recordings)
+            }
+            ReplayRequest::FetchDifference { request_id, recording, other } => {
+                let jobs = self.recordings.jobs()?;
+                let other = self.recordings.ready(other)?;
+                let run: Fetch = Box::new(move |recording, answer| {
+                    summary::difference(&*jobs, recording, &other, answer);
+                    Ok(())
+                });
+                self.fetch(Speed::Slow, request_id, recording, run)
+            }
+            ReplayRequest::FetchFile { request_id, recording } => {
+                let run: Fetch = Box::new(|recording, answer| {
+                    file::fetch(recording, answer);
+                    Ok(())
+                });
+                self.fetch(Speed::Slow, request_id, recording, run)
+            }
             ReplayRequest::StartRecording { .. } => self.recordings.start_recording(graph),
             ReplayRequest::StopRecording { .. } => {
                 let dropped = self.recordings.stop_recording()?;
@@ -169,6 +188,22 @@ impl RecordingClient {
                 Ok(())
             }
         }
+    }
+
+    fn fetch_report(&mut self, id: u32, recordings: &[u32]) -> Result<(), String> {
+        let (first, second) = match recordings {
+            [first] => (*first, None),
+            [first, second] => (*first, Some(self.recordings.ready(*second)?)),
+            others => {
+                return Err(format!("a report is about 1 or 2 recordings, not {}", others.len()));
+            }
+        };
+        let jobs = self.recordings.jobs()?;
+        let run: Fetch = Box::new(move |recording, answer| {
+            summary::report(&*jobs, recording, second.as_deref(), answer);
+            Ok(())
+        });
+        self.fetch(Speed::Slow, id, first, run)
     }
 
     /// Enters a pending request; returns its flag that it is cancelled.

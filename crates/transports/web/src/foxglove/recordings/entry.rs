@@ -1,5 +1,6 @@
 //! A recording of the list.
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, AtomicU32, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
@@ -13,7 +14,7 @@ use periplus_transport::lock;
 use super::latched::{grid_of_updates, latched_depth};
 use super::marks::MarkList;
 use super::transform_index::TransformIndex;
-use super::upload::UploadFolder;
+use super::upload::TemporaryFolder;
 use crate::foxglove::protocol::{OriginText, RecordingText, TimeNs, TopicText};
 
 /// A recording of the list.
@@ -23,7 +24,7 @@ pub(super) struct Entry {
     pub(super) origin: Option<OriginText>,
     pub(super) state: EntryState,
     /// Folder that is removed with the recording.
-    pub(super) _folder: Option<UploadFolder>,
+    pub(super) _folder: Option<TemporaryFolder>,
 }
 
 /// State of a recording.
@@ -132,6 +133,8 @@ impl Entry {
             message_count: 0,
             findings: Vec::new(),
             origin: self.origin.clone(),
+            is_temporary: self._folder.is_some(),
+            custom_data: BTreeMap::new(),
             topics: Vec::new(),
         };
         match &self.state {
@@ -159,6 +162,7 @@ fn describe(recording: &Recording, text: &mut RecordingText) {
     };
     (text.start_ns, text.end_ns) = (TimeNs(start_ns), TimeNs(end_ns));
     (text.bytes, text.message_count) = (bag.bytes(), bag.message_count());
+    text.custom_data.clone_from(bag.custom_data());
     let found = bag.findings().iter().map(|finding| finding.message.to_string());
     text.findings = found.chain(bag.faults()).chain(lock(&recording.notes).clone()).collect();
     let topics = bag.topics().iter().zip(bag.counts()).enumerate();

@@ -1,8 +1,8 @@
-//! Estimators that are run on a recording.
+//! Work on whole recordings that this crate leaves to others: estimators, reports, differences.
 
 use std::error::Error;
 use std::fmt;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
 use serde_json::{Map, Value};
@@ -16,6 +16,8 @@ pub struct JobRequest {
     pub path: PathBuf,
     /// Changed parameters by name.
     pub parameters: Map<String, Value>,
+    /// Folder for the result. It is removed when the result is closed, and at the end of the program.
+    pub out_folder: PathBuf,
 }
 
 /// Error of a job.
@@ -47,8 +49,8 @@ pub trait Jobs: Send + Sync {
     /// When there is no such kind.
     fn parameters(&self, kind: &str) -> Result<Value, JobError>;
 
-    /// Runs a job on the calling thread and returns the path of the recording that it wrote, which
-    /// belongs to the caller. `progress` gets values from 0 to 1.
+    /// Runs a job on the calling thread and returns the path of the recording that it wrote to
+    /// `out_folder`. `progress` gets values from 0 to 1.
     ///
     /// # Errors
     /// When it fails, and when `is_cancelled` became true.
@@ -58,4 +60,22 @@ pub trait Jobs: Send + Sync {
         progress: &dyn Fn(f32),
         is_cancelled: &AtomicBool,
     ) -> Result<PathBuf, JobError>;
+
+    /// Returns the report of one recording, or of two and their difference, as an HTML document
+    /// that needs no other file.
+    ///
+    /// # Errors
+    /// When a recording cannot be read, or this program writes no reports.
+    fn report(&self, paths: &[&Path]) -> Result<String, JobError>;
+
+    /// Compares two recordings; see `docs/live.md` for the answer.
+    ///
+    /// # Errors
+    /// When a recording cannot be read, and when `is_cancelled` became true.
+    fn difference(
+        &self,
+        first: &Path,
+        second: &Path,
+        is_cancelled: &AtomicBool,
+    ) -> Result<Value, JobError>;
 }

@@ -1,12 +1,14 @@
 //! Recording of the graph.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use periplus_bags::files::{
     BagError, RecordSettings, Recorder, Storage, WriteSettings, stamp_name,
 };
 use periplus_graph::{Graph, TopicInfo};
 use periplus_transport::unix_ns;
+
+use super::service::RecordingSettings;
 
 /// A recording of the graph in progress.
 pub(super) struct LiveRecording {
@@ -15,13 +17,17 @@ pub(super) struct LiveRecording {
 }
 
 impl LiveRecording {
-    /// Starts to record all topics into a new folder below `parent`, named as `ros2 bag record`
+    /// Starts to record all topics into a new folder below that of the settings, named as `ros2 bag record`
     /// names it.
-    pub(super) fn start(graph: &Graph, parent: &Path) -> Result<Self, BagError> {
-        let path = parent.join(format!("rosbag2_{}", stamp_name(unix_ns())));
+    pub(super) fn start(graph: &Graph, settings: &RecordingSettings) -> Result<Self, BagError> {
+        let path = settings.record_folder.join(format!("rosbag2_{}", stamp_name(unix_ns())));
+        let write = WriteSettings {
+            custom_data: settings.custom_data.clone(),
+            ..WriteSettings::new(Storage::Mcap)
+        };
         let settings = RecordSettings {
             wanted: Box::new(|topic: &TopicInfo| !is_hidden(&topic.name)),
-            ..RecordSettings::all(WriteSettings::new(Storage::Mcap))
+            ..RecordSettings::all(write)
         };
         let recorder = Recorder::start(graph, &path, settings)?;
         Ok(Self { path, recorder })

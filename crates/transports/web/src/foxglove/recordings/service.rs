@@ -15,7 +15,7 @@ use super::background;
 use super::entry::{Entry, EntryProgress, EntryState, Recording};
 use super::jobs::{JobRequest, Jobs};
 use super::live::LiveRecording;
-use super::upload::UploadedRecording;
+use super::upload::{TemporaryFolder, UploadedRecording};
 use crate::foxglove::outbox::Outbox;
 use crate::foxglove::protocol::{self, OriginText};
 
@@ -37,6 +37,8 @@ pub struct RecordingSettings {
     pub upload_folder: PathBuf,
     /// Maximum size of an upload \[bytes\].
     pub upload_max_bytes: u64,
+    /// Facts by name that recordings of the graph contain.
+    pub custom_data: BTreeMap<String, String>,
 }
 
 impl RecordingSettings {
@@ -47,6 +49,7 @@ impl RecordingSettings {
             record_folder: record_folder.into(),
             upload_folder: upload_folder.into(),
             upload_max_bytes: 64 << 30,
+            custom_data: BTreeMap::new(),
         }
     }
 }
@@ -255,7 +258,7 @@ impl Recordings {
         self.jobs()?.parameters(kind).map_err(|error| error.to_string())
     }
 
-    fn jobs(&self) -> Result<Arc<dyn Jobs>, String> {
+    pub(super) fn jobs(&self) -> Result<Arc<dyn Jobs>, String> {
         lock(&self.jobs).clone().ok_or_else(|| "this server runs no estimators".to_owned())
     }
 
@@ -277,8 +280,10 @@ impl Recordings {
         let origin =
             OriginText { recording: source, kind: kind.to_owned(), parameters: parameters.clone() };
         let (entry, job_progress) = opening(name, path.clone());
-        let entry = Entry { origin: Some(origin), ..entry };
-        let job = JobRequest { kind: kind.to_owned(), path, parameters };
+        let folder = TemporaryFolder::create(&self.settings.upload_folder, "job")?;
+        let out_folder = folder.path().to_owned();
+        let entry = Entry { origin: Some(origin), _folder: Some(folder), ..entry };
+        let job = JobRequest { kind: kind.to_owned(), path, parameters, out_folder };
         let open = self.opener();
         let added = self.add(entry, job_progress, move |_, progress| {
             // The files of an upload stay while the job reads them.
@@ -297,7 +302,7 @@ impl Recordings {
         if let Some(live) = &state.live {
             return Err(format!("`{}` is being recorded already", live.path.display()));
         }
-        let live = LiveRecording::start(graph, &self.settings.record_folder);
+        let live = LiveRecording::start(graph, &self.settings);
         state.live = Some(live.map_err(|error| error.to_string())?);
         state.send();
         Ok(())

@@ -18,20 +18,25 @@ const MAX_NAME_BYTES: usize = 255;
 
 /// A temporary folder, removed with its files when dropped.
 #[derive(Debug)]
-pub(super) struct UploadFolder(PathBuf);
+pub(super) struct TemporaryFolder(PathBuf);
 
-impl UploadFolder {
-    fn create(parent: &Path) -> Result<Self, String> {
+impl TemporaryFolder {
+    /// Creates a folder below `parent`; `purpose` is a part of its name.
+    pub(super) fn create(parent: &Path, purpose: &str) -> Result<Self, String> {
         static NUMBER: AtomicU64 = AtomicU64::new(0);
         let number = NUMBER.fetch_add(1, Ordering::Relaxed);
-        let path = parent.join(format!("periplus-upload-{}-{number}", std::process::id()));
+        let path = parent.join(format!("periplus-{purpose}-{}-{number}", std::process::id()));
         fs::create_dir_all(&path)
             .map_err(|error| format!("`{}`: {}", path.display(), plain_words(&error)))?;
         Ok(Self(path))
     }
+
+    pub(super) fn path(&self) -> &Path {
+        &self.0
+    }
 }
 
-impl Drop for UploadFolder {
+impl Drop for TemporaryFolder {
     fn drop(&mut self) {
         // A failure cannot be handled here.
         let _ = fs::remove_dir_all(&self.0);
@@ -41,7 +46,7 @@ impl Drop for UploadFolder {
 /// An upload in progress.
 #[derive(Debug)]
 pub(super) struct Upload {
-    folder: UploadFolder,
+    folder: TemporaryFolder,
     names: Vec<String>,
     /// Files that have not begun, with their sizes.
     waiting: VecDeque<(PathBuf, u64)>,
@@ -53,7 +58,7 @@ pub(super) struct Upload {
 /// A complete upload.
 #[derive(Debug)]
 pub(super) struct UploadedRecording {
-    pub(super) folder: UploadFolder,
+    pub(super) folder: TemporaryFolder,
     pub(super) name: String,
     /// The file, or the folder of several files.
     pub(super) path: PathBuf,
@@ -85,7 +90,7 @@ impl Upload {
             }
             names.push(name.to_owned());
         }
-        let folder = UploadFolder::create(parent)?;
+        let folder = TemporaryFolder::create(parent, "upload")?;
         let paths = names.iter().map(|name| folder.0.join(name));
         let waiting = paths.zip(files).map(|(path, file)| (path, file.bytes)).collect();
         let mut upload = Self { folder, names, waiting, open: None, received_bytes: 0 };
