@@ -1219,4 +1219,10 @@ export const de: Texts = {
       PageDown: 'Heran, oder rechts herum drehen',
     },
   },
+  sdfPaste: {
+    noModel: 'Die Zwischenablage enthält kein vollständiges <model> in SDF',
+    wrongPose: (model, pose) =>
+      `Die Pose von ${model} ist „${pose}“; nötig sind sechs Zahlen: x y z roll pitch yaw`,
+    pasted: (models) => `${models} eingefügt`,
+  },
 };

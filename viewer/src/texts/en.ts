@@ -1230,6 +1230,12 @@ export const en = {
       PageDown: 'Towards you, or rotate right',
     },
   },
+  sdfPaste: {
+    noModel: 'The clipboard has no complete <model> of SDF',
+    wrongPose: (model: string, pose: string) =>
+      `The pose of ${model} is "${pose}"; six numbers are needed: x y z roll pitch yaw`,
+    pasted: (models: string) => `${models} pasted`,
+  },
 };
 
 export type Texts = typeof en;
