@@ -14,6 +14,7 @@ import { keyboard } from './keyboard.mjs';
 import { browser, next, open, periplus, servePage, until, port } from './lib.mjs';
 import { navigate } from './navigate.mjs';
 import { panels } from './panels.mjs';
+import { proof } from './proof.mjs';
 import { replay } from './replay.mjs';
 import { tutorials } from './tutorials.mjs';
 import { use } from './use.mjs';
@@ -185,6 +186,7 @@ try {
   await tutorials(chrome, pages.url, out, attempt);
   await replay(chrome, pages.url, out, attempt);
   await edit(chrome, pages.url, attempt);
+  await proof(chrome, pages.url, out, attempt);
   await demo(chrome, pages.url, attempt);
 } finally {
   await chrome.close();

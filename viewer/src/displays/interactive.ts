@@ -452,6 +452,8 @@ export class InteractiveMarkersDisplay extends Display {
     const entry = this.entries.get(name);
     const part = entry?.parts[index];
     if (!entry?.root.visible || !part || this.held) return false;
+    // Two steps may come between two frames.
+    this.place(entry);
     const { camera } = this.context.stage.view;
     const position = new Vector3();
     const quaternion = new Quaternion();
