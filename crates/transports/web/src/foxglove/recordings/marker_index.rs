@@ -60,10 +60,13 @@ struct Changes<L> {
     namespace_of: Vec<u32>,
     /// Messages of a topic with the same changes, in order. A node that publishes the same markers
     /// periodically has one entry.
-    groups: BTreeMap<(usize, Vec<Change>), Vec<(i64, L)>>,
+    groups: BTreeMap<GroupKey, Vec<(i64, L)>>,
     size: usize,
     reach: Reach,
 }
+
+/// A topic, and the changes that a message of it makes.
+type GroupKey = (usize, Vec<Change>);
 
 /// Change that a message makes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
