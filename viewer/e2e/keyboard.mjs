@@ -42,7 +42,17 @@ function watch() {
 /** Goes once through the page by Tab; returns elements that were not reached, not visible or not named. */
 async function around(page) {
   const { texts, nameless } = await page.evaluate(watch);
-  for (let i = 0; i < texts.length + 10; i++) await page.keyboard.press('Tab');
+  // The first Tab goes on from where the focus was, so that an element there is reached last. A panel that still loads
+  // gets more elements meanwhile: the way around is then longer than the list.
+  const isDone = () =>
+    page.evaluate(
+      (count) => new Set([...window.seen.reached, ...window.seen.gone]).size >= count,
+      texts.length,
+    );
+  for (let i = 0; i < 3 * texts.length + 10; i++) {
+    await page.keyboard.press('Tab');
+    if (i >= texts.length && (await isDone())) break;
+  }
   const { reached, unseen, gone } = await page.evaluate('seen');
   return {
     count: reached.length,

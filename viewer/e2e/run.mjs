@@ -15,6 +15,7 @@ import { browser, next, open, periplus, servePage, until, port } from './lib.mjs
 import { meshes } from './meshes.mjs';
 import { navigate } from './navigate.mjs';
 import { panels } from './panels.mjs';
+import { proof } from './proof.mjs';
 import { replay } from './replay.mjs';
 import { robots } from './robots.mjs';
 import { tutorials } from './tutorials.mjs';
@@ -188,6 +189,7 @@ try {
   await tutorials(chrome, pages.url, out, attempt);
   await replay(chrome, pages.url, out, attempt);
   await edit(chrome, pages.url, attempt);
+  await proof(chrome, pages.url, out, attempt);
   await demo(chrome, pages.url, attempt);
   await robots(chrome, pages.url, attempt);
 } finally {

@@ -417,7 +417,11 @@ export const DISPLAYS = [
 export const WITHOUT_PICTURE = [
   {
     kind: rviz('InteractiveMarkers'),
-    text: 'Handles that a node offers, such as those of the pose graph of `slam_toolbox` in its interactive mode: moved along axes and in planes, turned, clicked, with menus (right button). Ctrl turns a handle of all six degrees of freedom. The markers are requested with the service `get_interactive_markers`.',
+    text: 'Handles that a node offers, such as those of the pose graph of `slam_toolbox` in its interactive mode: moved along axes and in planes, turned, clicked, with menus (right button), or by keys in the panel Interactive markers. Ctrl turns a handle of all six degrees of freedom. The markers are requested with the service `get_interactive_markers`.',
+  },
+  {
+    kind: 'periplus/MapDifference',
+    text: 'Cells of two maps that are occupied in the first, in the second, or in both, in three colours; the status has their numbers. The comparison of two recordings adds it, and any two topics of maps can be chosen.',
   },
   { kind: rviz('GridCells'), text: 'The cells of a grid as flat tiles.' },
   { kind: rviz('PointStamped'), text: 'A point as a ball, and those before it.' },

@@ -4,7 +4,7 @@ import { fromYaw, IDENTITY, yawOf, type Pose } from '../src/core/pose';
 import { aligned, distributed, type Extent } from '../src/sim/align';
 import { Drag, movedPoses, snapped, type Handle, type Motion } from '../src/sim/drag';
 import { EditHistory, MOST_STEPS, type Edit, type EditedWorld } from '../src/sim/edits';
-import { freeName, modelSdf, modelsIn, renamed } from '../src/sim/sdf_text';
+import { freeName, modelSdf, modelsIn, poseIn, renamed } from '../src/sim/sdf_text';
 
 const at = (x: number, y = 0, z = 0): Pose => ({ t: [x, y, z], q: [0, 0, 0, 1] });
 const source = { sdf: '<sdf/>', file: '' };
@@ -264,4 +264,16 @@ describe('handles', () => {
     const after = movedPoses(quarter, [1, 0, 0], new Map([['a', IDENTITY]]));
     expect(after.get('a')!.t.map((v) => +v.toFixed(6) + 0)).toEqual([1, -1, 0]);
   });
+});
+
+describe('the pose of a pasted model', () => {
+  const pose = (inner: string) => poseIn(`<model name="a">${inner}</model>`);
+  test('is that of the model, not of its links', () =>
+    expect(
+      pose('<link name="l"><pose>9 9 9 0 0 0</pose></link><pose>1 2 3 0 0 0.5</pose>'),
+    ).toEqual([1, 2, 3, 0, 0, 0.5]));
+  test('may be in degrees', () =>
+    expect(pose('<pose degrees="true">0 0 0 0 0 180</pose>')[5]).toBeCloseTo(Math.PI));
+  test('is zero without one', () => expect(pose('<static>1</static>')).toEqual([0, 0, 0, 0, 0, 0]));
+  test('must have six numbers', () => expect(() => pose('<pose>1 2 x</pose>')).toThrow('1 2 x'));
 });

@@ -31,6 +31,11 @@ describe('transforms', () => {
     ]);
     expect(monitor.faults()).toEqual([]);
   });
+  test('in a recording the age is that of the reception', () => {
+    const monitor = new TransformMonitor();
+    monitor.add(transform('odom', 'base', 1000), false, 4);
+    expect(monitor.rows(5).find((row) => row.name === 'base')!.ageS).toBe(1);
+  });
   test('two parents', () =>
     expect(monitorOf([transform('a', 'c', 5)], [transform('b', 'c', 6)]).faults()).toContainEqual({
       kind: 'parents',

@@ -103,6 +103,7 @@ export class App {
   private worldSubscriptions: (() => void)[] = [];
   private publishers = new Map<string, (message: Message) => void>();
   private lastId = 0;
+  private forgetters = new Set<() => void>();
   private newLog: LogLine[] = [];
   private framesKey = '';
   private isGraphChanged = false;
@@ -189,6 +190,13 @@ export class App {
     this.log = [];
     this.newLog = [];
     for (const viewport of this.viewports) viewport.jumped();
+    for (const forget of this.forgetters) forget();
+  }
+
+  /** Calls `forget` at each jump, before the messages of the new time; returns a function that ends this. */
+  onJump(forget: () => void): () => void {
+    this.forgetters.add(forget);
+    return () => this.forgetters.delete(forget);
   }
 
   /** The log before the time of a recording that is shown. */

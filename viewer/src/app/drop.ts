@@ -30,7 +30,8 @@ const WORLD = /\.(sdf|world|urdf|xacro|launch|launch\.py|xml)$/i;
 export function kindOfFile(name: string, head: Uint8Array): FileKind {
   // Layouts are opened by the same reader.
   if (/\.(rviz|json)$/i.test(name)) return 'rviz';
-  const text = new TextDecoder('latin1').decode(head);
+  // Byte by byte: in browsers "latin1" is windows-1252, in which the first byte of MCAP is another character.
+  const text = Array.from(head, (byte) => String.fromCharCode(byte)).join('');
   const isMagic =
     text.startsWith('\x89MCAP0\r\n') ||
     text.startsWith('#ROSBAG V') ||

@@ -54,6 +54,10 @@ export class Entry {
       status: (name, level, text) => {
         this.pending.set(name, text === undefined ? undefined : { level, text });
       },
+      forget: () => {
+        this.pending.clear();
+        for (const name of Object.keys(this.statuses)) this.pending.set(name, undefined);
+      },
       note: (path, value) => {
         if (this.values[path] !== value) this.values[path] = value;
       },

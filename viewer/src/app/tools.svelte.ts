@@ -14,7 +14,7 @@ import { arrowGeometry, label, polyline, surface } from '../scene/shapes';
 import { dispose, type Stage } from '../scene/stage';
 import { WorldEditor } from '../sim/editor.svelte';
 import { Manipulator, type PagePoint } from '../sim/manipulator';
-import { editKey } from '../sim/shortcuts';
+import { editKey, pasteInto } from '../sim/shortcuts';
 import { isUnderlayFile, Underlay } from '../sim/underlay.svelte';
 import { Color, Group, Mesh } from 'three';
 import type { App } from './app.svelte';
@@ -171,6 +171,9 @@ export class Tools {
       },
       true,
     );
+    window.addEventListener('paste', (event) => {
+      if (pasteInto(this.app, this.editor, event)) event.preventDefault();
+    });
     // Pictures and map files; other files are left to the rest of the page.
     window.addEventListener(
       'dragover',

@@ -151,6 +151,14 @@ export class Workbench implements PanelHost {
     this.changed();
   }
 
+  /** Removes the tab of a kind that has nothing to show any more. It is offered again unless the user closed it. */
+  withdraw(kind: string): void {
+    const open = this.panels.filter((panel) => panel.kind === kind);
+    if (open.length === 0) return;
+    this.offered = this.offered.filter((id) => id !== kind);
+    for (const panel of open) this.close(panel);
+  }
+
   private put(panel: Panel, beside: string | undefined, side: Side): void {
     if (this.arranger) {
       this.arranger.add(panel, beside, side);

@@ -474,7 +474,8 @@ export class ReplaySource implements Source {
     if (!topic) return [];
     const needs = [{ id: topic.info.id, count, historyNs: '0' }];
     const all = await topic.track.state(this.playhead.positionNs, needs, signal);
-    return all.flatMap(({ data, atNs }) => {
+    // Of some topics the server sends more than asked for.
+    return all.slice(-count).flatMap(({ data, atNs }) => {
       const message = topic.read(data, (text) => this.events.failed(text));
       return message ? [{ message, timeS: this.timeS(atNs) }] : [];
     });

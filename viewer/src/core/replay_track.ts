@@ -24,11 +24,14 @@ const GUESSES: [RegExp, number][] = [
 const SMALL_BYTES = 500;
 
 const TF = 'tf2_msgs/msg/TFMessage';
+/** Types whose state is made of many messages: the server sends those that matter at a time. */
+const MARKERS = ['visualization_msgs/msg/Marker', 'visualization_msgs/msg/MarkerArray'];
 
 /** Topic of a recording with the prefix of its track. */
 export class StoredTopic {
   readonly name: string;
   readonly isTf: boolean;
+  private readonly isMarkers: boolean;
   /** Position of the message that was delivered last [ns]. */
   lastNs = -Infinity;
   /** True while only the newest message is fetched now and then: there are more bytes than can be shown. */
@@ -44,11 +47,12 @@ export class StoredTopic {
   ) {
     this.name = track.prefix + info.topic;
     this.isTf = info.schemaName === TF;
+    this.isMarkers = MARKERS.includes(info.schemaName);
   }
 
   /** Topics of which no message is ever skipped. */
   get isComplete(): boolean {
-    return this.isTf || this.info.isLatched;
+    return this.isTf || this.isMarkers || this.info.isLatched;
   }
 
   /** Bytes per second of the recording, from the messages so far. */

@@ -30,6 +30,8 @@ interface Seen {
   isDynamic: boolean;
   hasBadNumber: boolean;
   stamps: number[];
+  /** Time of the newest transform, by the clock of the ages [s]. */
+  newestS: number;
 }
 
 /** Stamps from which a rate is computed, at most. */
@@ -48,7 +50,11 @@ export class TransformMonitor {
     this.selves.clear();
   }
 
-  add(message: TransformStamped, isStatic: boolean): void {
+  /**
+   * `receivedS`: time of reception, where ages are those of messages: in a recording, whose stamps may be of another
+   * clock. Without it, ages are those of the stamps.
+   */
+  add(message: TransformStamped, isStatic: boolean, receivedS?: number): void {
     const child = frameName(message.child_frame_id);
     const parent = frameName(message.header.frame_id);
     if (child === parent) {
@@ -63,6 +69,7 @@ export class TransformMonitor {
         isDynamic: false,
         hasBadNumber: false,
         stamps: [],
+        newestS: 0,
       };
       this.frames.set(child, seen);
     }
@@ -82,6 +89,7 @@ export class TransformMonitor {
       seen.parents = new Map([[parent, stampS]]);
     }
     stamps.push(stampS);
+    seen.newestS = receivedS ?? stampS;
     if (stamps.length > MAX_STAMPS) stamps.shift();
   }
 
@@ -112,8 +120,7 @@ export class TransformMonitor {
     const isStatic = seen.isStatic && !seen.isDynamic;
     const row = { name, depth, parent: this.parentOf(name), isStatic };
     if (isStatic) return row;
-    const newest = seen.stamps[seen.stamps.length - 1]!;
-    return { ...row, ageS: nowS - newest, rateHz: rateOf(seen.stamps) };
+    return { ...row, ageS: nowS - seen.newestS, rateHz: rateOf(seen.stamps) };
   }
 
   private parentOf(name: string): string | undefined {

@@ -45,6 +45,8 @@ export interface Context {
 export interface Host {
   /** Sets the status of this name; without a text, removes it. */
   status(name: string, level: Level, text?: string): void;
+  /** Removes all statuses. */
+  forget(): void;
   note(path: string, value: Value): void;
   /** Shows an image beside the scene. */
   picture?(canvas: HTMLCanvasElement): void;
@@ -138,8 +140,9 @@ export abstract class Display {
   reset(): void {
     this.messageCount = 0;
     if (this.unsubscribe) {
-      this.host.status('Topic', 'warn', `No message on ${this.subscribedTopic} at this time`);
-      this.host.status('Message', 'ok');
+      // The statuses describe messages of the time before.
+      this.host.forget();
+      this.host.status('Topic', 'warn', t().replayTime.noMessageAtTime(this.subscribedTopic));
     }
     this.clear();
   }

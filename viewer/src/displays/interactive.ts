@@ -1,13 +1,14 @@
 /** InteractiveMarkers: handles of nodes that are moved, turned and clicked, with menus. */
 import { Group, Matrix4, Mesh, Quaternion, Vector3, type Object3D } from 'three';
 import type { Message } from '../core/cdr';
-import { multiply } from '../core/pose';
+import { multiply, type Pose } from '../core/pose';
 import { poseOf, seconds, stampOf } from '../core/types';
 import { axesGeometry, axesMaterial } from '../scene/shapes';
 import { dispose } from '../scene/stage';
 import { t } from '../texts/language.svelte';
 import { Display, type Kind } from './display';
-import { asRotation, drag, type Grip } from './interactive_drag';
+import { asRotation, drag, type Grip, type Placed } from './interactive_drag';
+import { stepped, type Direction, type Steps } from './interactive_keys';
 import { openMenu } from './interactive_menu';
 import {
   completed,
@@ -58,7 +59,15 @@ interface Held {
 
 let clients = 0;
 
-class InteractiveMarkersDisplay extends Display {
+/** A marker and the controls that a user can move or press. */
+export interface MarkerHandle {
+  name: string;
+  description: string;
+  hasMenu: boolean;
+  controls: { index: number; name: string; mode: number }[];
+}
+
+export class InteractiveMarkersDisplay extends Display {
   private entries = new Map<string, Entry>();
   private sequence: bigint | undefined;
   private waiting: Update[] = [];
@@ -368,10 +377,17 @@ class InteractiveMarkersDisplay extends Display {
     // As in RViz: with Ctrl a control of all six degrees of freedom turns.
     const isTurn = held.grip.mode === MODE.moveRotate3d && event.ctrlKey;
     const placed = drag(isTurn ? asRotation(held.grip) : held.grip, ray);
-    if (!placed) return;
-    const { marker } = held.entry;
+    if (!placed || !this.setPose(held.entry, placed)) return;
+    if (performance.now() - held.sentMs >= POSE_MS) {
+      held.sentMs = performance.now();
+      this.send(held.entry, held.control.name, EVENT.poseUpdate);
+    }
+  }
+
+  /** Sets the pose of a marker from one in the fixed frame; false without a transform. */
+  private setPose({ marker }: Entry, placed: Placed): boolean {
     const fixed = this.fixedFromFrame(marker);
-    if (!fixed) return;
+    if (!fixed) return false;
     const fixedFromFrame = new Matrix4().compose(
       new Vector3(...fixed.t),
       new Quaternion(...fixed.q),
@@ -386,10 +402,7 @@ class InteractiveMarkersDisplay extends Display {
       orientation: { x: q.x, y: q.y, z: q.z, w: q.w },
     };
     this.context.stage.invalidate();
-    if (performance.now() - held.sentMs >= POSE_MS) {
-      held.sentMs = performance.now();
-      this.send(held.entry, held.control.name, EVENT.poseUpdate);
-    }
+    return true;
   }
 
   private up(event: PointerEvent): void {
@@ -405,6 +418,87 @@ class InteractiveMarkersDisplay extends Display {
     }
     this.send(entry, control.name, EVENT.mouseUp);
     this.release();
+  }
+
+  // The keyboard.
+
+  /** Markers of which a control can be moved or pressed, by name. */
+  handles(): MarkerHandle[] {
+    return [...this.entries.values()]
+      .map(({ marker }) => ({
+        name: marker.name,
+        description: marker.description,
+        hasMenu: marker.menu_entries.length > 0,
+        controls: marker.controls.flatMap((control, index) => {
+          const mode = control.interaction_mode;
+          const name = control.description || control.name;
+          return mode === MODE.none || mode === MODE.menu ? [] : [{ index, name, mode }];
+        }),
+      }))
+      .filter(({ hasMenu, controls }) => hasMenu || controls.length > 0)
+      .sort((a, b) => a.name.localeCompare(b.name));
+  }
+
+  /** Pose of a marker in its frame. */
+  poseOf(name: string): { frame: string; pose: Pose } | undefined {
+    const marker = this.entries.get(name)?.marker;
+    return marker && { frame: marker.header.frame_id, pose: poseOf(marker.pose) };
+  }
+
+  /** Moves a marker by a step of a control; false if the control does not move in this direction. */
+  step(name: string, index: number, by: Direction, steps: Steps, isTurn = false): boolean {
+    const entry = this.entries.get(name);
+    const part = entry?.parts[index];
+    if (!entry?.root.visible || !part || this.held) return false;
+    // Two steps may come between two frames.
+    this.place(entry);
+    const { camera } = this.context.stage.view;
+    const position = new Vector3();
+    const quaternion = new Quaternion();
+    entry.root.matrix.decompose(position, quaternion, new Vector3());
+    const { mode, axis, start } = this.grip(entry, part, position);
+    const { x, y, z, w } = part.control.orientation;
+    const turn = new Quaternion(x, y, z, w).premultiply(
+      new Quaternion().setFromRotationMatrix(part.holder.matrix),
+    );
+    const along = (vector: Vector3, q: Quaternion) => vector.applyQuaternion(q).normalize();
+    const inFixed = (vector: Vector3) => along(vector.applyQuaternion(turn), quaternion);
+    const screen = {
+      x: along(new Vector3(1, 0, 0), camera.quaternion),
+      y: along(new Vector3(0, 1, 0), camera.quaternion),
+      z: along(new Vector3(0, 0, 1), camera.quaternion),
+    };
+    const isFacing = part.control.orientation_mode === ORIENTATION.viewFacing;
+    const control = isFacing
+      ? { x: axis, y: screen.x, z: screen.y }
+      : { x: axis, y: inFixed(new Vector3(0, 1, 0)), z: inFixed(new Vector3(0, 0, 1)) };
+    const asked = isTurn && mode === MODE.moveRotate3d ? MODE.rotate3d : mode;
+    const placed = stepped(asked, control, screen, start, by, steps);
+    if (!placed) return false;
+    this.send(entry, part.control.name, EVENT.mouseDown, position);
+    if (this.setPose(entry, placed)) this.send(entry, part.control.name, EVENT.poseUpdate);
+    this.send(entry, part.control.name, EVENT.mouseUp);
+    return true;
+  }
+
+  /** Presses a button control, or opens the menu of the marker; false if it has neither. */
+  press(name: string, index: number, at: { clientX: number; clientY: number }): boolean {
+    const entry = this.entries.get(name);
+    if (!entry) return false;
+    const control = entry.marker.controls[index];
+    if (control?.interaction_mode === MODE.button) {
+      const position = new Vector3().setFromMatrixPosition(entry.root.matrix);
+      this.send(entry, control.name, EVENT.mouseDown, position);
+      this.send(entry, control.name, EVENT.buttonClick, position);
+      this.send(entry, control.name, EVENT.mouseUp);
+      return true;
+    }
+    if (entry.marker.menu_entries.length === 0) return false;
+    const [first] = entry.marker.controls;
+    const chosen = control ?? first;
+    if (!chosen) return false;
+    this.menu(entry, chosen, at);
+    return true;
   }
 
   private release(): void {

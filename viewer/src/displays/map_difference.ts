@@ -15,6 +15,7 @@ import { colorOf } from '../scene/shapes';
 import { dispose } from '../scene/stage';
 import { Display, type Kind } from './display';
 import { alpha, color, int, topic } from './options';
+import { t } from '../texts/language.svelte';
 
 export type Cell = 'first' | 'second' | 'both' | 'none';
 
@@ -56,7 +57,7 @@ export function differenceOf(
   const [fromX, fromY] = [low(0), low(1)];
   const [width, height] = [high(0, w1) - fromX, high(1, h1) - fromY];
   if (width * height > MAX_CELLS) {
-    throw new Error(`The maps are too far apart: both would have ${width} x ${height} cells`);
+    throw new Error(t().mapDifference.tooFarApart(width, height));
   }
   const cells = new Uint8Array(width * height);
   const counts = { first: 0, second: 0, both: 0 };
@@ -98,9 +99,14 @@ class MapDifferenceDisplay extends Display {
     super.start();
     this.unsubscribeSecond?.();
     const second = this.get<string>('Second Topic');
-    if (!second) return;
+    if (!second) {
+      this.host.status('Second topic', 'warn', t().displays.noTopic);
+      return;
+    }
+    this.host.status('Second topic', 'warn', t().displays.noMessage(second));
     this.unsubscribeSecond = this.context.subscribe(second, (message) => {
       this.second = message as unknown as OccupancyGrid;
+      this.host.status('Second topic', 'ok');
       this.isChanged = true;
     });
   }
@@ -123,6 +129,8 @@ class MapDifferenceDisplay extends Display {
   override reset(): void {
     this.first = this.second = undefined;
     super.reset();
+    const second = this.get<string>('Second Topic');
+    if (second) this.host.status('Second topic', 'warn', t().replayTime.noMessageAtTime(second));
   }
 
   override tick(): void {
@@ -137,7 +145,7 @@ class MapDifferenceDisplay extends Display {
     const fixed = tf.lookup(this.context.fixedFrame(), firstFrame);
     if (tie.kind !== 'found' || fixed.kind !== 'found') {
       const why = tie.kind !== 'found' ? tie.why : fixed.kind !== 'found' ? fixed.why : '';
-      this.host.status('Transform', 'error', `No transform: ${why}`);
+      this.host.status('Transform', 'error', t().displays.noTransform(why));
       this.clear();
       return;
     }
@@ -196,13 +204,8 @@ class MapDifferenceDisplay extends Display {
     this.mesh.renderOrder = -5;
     this.root.add(this.mesh);
     this.put(this.mesh, fixedFromFirst);
-    const text = (count: number) => count.toLocaleString('en');
-    this.host.status(
-      'Cells',
-      'ok',
-      `Occupied: ${text(counts.first)} only in the first, ${text(counts.second)} only in the second, ` +
-        `${text(counts.both)} in both`,
-    );
+    const { first: inFirst, second: inSecond, both } = counts;
+    this.host.status('Cells', 'ok', t().mapDifference.cells(inFirst, inSecond, both));
   }
 
   override clear(): void {
@@ -225,7 +228,9 @@ const MAP = ['nav_msgs/msg/OccupancyGrid'];
 export const mapDifference: Kind = {
   class: 'periplus/MapDifference',
   title: 'MapDifference',
-  help: 'Cells that are occupied in the first map, in the second, or in both',
+  get help() {
+    return t().mapDifference.help;
+  },
   types: [],
   options: [
     ...topic('Topic', '', MAP),

@@ -1,7 +1,6 @@
 /** Marker and MarkerArray: shapes published by nodes. */
 import { Group } from 'three';
 import type { Message } from '../core/cdr';
-import type { Need } from '../core/feed';
 import { multiply, type Pose } from '../core/pose';
 import { poseOf, seconds, type Marker } from '../core/types';
 import { dispose } from '../scene/stage';
@@ -24,14 +23,10 @@ const ADD = 0;
 const DELETE = 2;
 const DELETE_ALL = 3;
 
-/** Messages fetched from a recording: earlier markers that were not replaced since are missing. */
-const MAX_KEPT = 30;
-const MAX_KEPT_ARRAYS = 3;
-
 export class MarkerDisplay extends Display {
-  protected entries = new Map<string, Entry>();
+  private entries = new Map<string, Entry>();
   /** Markers received since the last frame; a newer one replaces an older one with the same name. */
-  private received = new Map<string, Marker>();
+  private received = new Map<string, { marker: Marker; receivedS: number }>();
   private fixed = '';
 
   protected override receive(message: Message): void {
@@ -48,27 +43,30 @@ export class MarkerDisplay extends Display {
         if (!marker.ns || name.startsWith(`${marker.ns}\n`)) this.drop(name);
       }
     } else if (marker.action === DELETE) this.drop(key);
-    else if (marker.action === ADD) this.received.set(key, marker);
+    else if (marker.action === ADD) {
+      this.received.set(key, { marker, receivedS: this.context.nowS() });
+    }
   }
 
   /** Builds the markers received since the last frame. */
   private build(): void {
     const received = [...this.received];
     this.received.clear();
-    for (const [key, marker] of received) this.add(key, marker);
-    const names = new Set(received.map(([, marker]) => marker.ns));
+    for (const [key, { marker, receivedS }] of received) this.add(key, marker, receivedS);
+    const names = new Set(received.map(([, { marker }]) => marker.ns));
     for (const ns of names) {
       if (!(`Namespaces/${ns}` in this.values)) this.host.note(`Namespaces/${ns}`, true);
     }
     this.host.status('Markers', 'ok', t().displays.markers(this.entries.size));
   }
 
-  /** Markers are published one after the other, and stay until they are deleted. */
-  protected override need(): Need {
-    return { count: MAX_KEPT };
-  }
-
-  private add(key: string, marker: Marker): void {
+  private add(key: string, marker: Marker, receivedS: number): void {
+    const life = seconds(marker.lifetime);
+    const untilS = life > 0 ? receivedS + life : Infinity;
+    if (this.context.nowS() > untilS) {
+      this.drop(key);
+      return;
+    }
     const isReplaced = this.entries.has(key);
     this.drop(key);
     const object = new Group();
@@ -90,13 +88,12 @@ export class MarkerDisplay extends Display {
       return;
     }
     this.root.add(object);
-    const life = seconds(marker.lifetime);
     const entry = {
       marker,
       object,
       isPlaced: false,
       sinceMs: performance.now(),
-      untilS: life > 0 ? this.context.nowS() + life : Infinity,
+      untilS,
     };
     this.entries.set(key, entry);
     if (isReplaced) this.place(entry, performance.now(), true);
@@ -174,13 +171,6 @@ export class MarkerDisplay extends Display {
   }
 }
 
-/** Most nodes publish all of their markers in each message. */
-class MarkerArrayDisplay extends MarkerDisplay {
-  protected override need(): Need {
-    return { count: MAX_KEPT_ARRAYS };
-  }
-}
-
 const MARKER = ['visualization_msgs/msg/Marker'];
 const ARRAY = ['visualization_msgs/msg/MarkerArray'];
 
@@ -205,5 +195,5 @@ export const markerArray: Kind = {
   },
   types: ARRAY,
   options: topic('Topic', '', ARRAY),
-  make: (...all) => new MarkerArrayDisplay(...all),
+  make: (...all) => new MarkerDisplay(...all),
 };

@@ -40,6 +40,9 @@ export interface PanelKind {
   isOffered?: (app: App) => boolean;
 }
 
+/** Panels that work on an open recording. */
+const isReplay = (app: App) => app.replay !== undefined;
+
 const kinds: PanelKind[] = [
   // prettier-ignore
   { id: '3d', title: () => t().panels.view, icon: 'cube', isMany: true, isBare: true, isKept: true, isLarge: true, component: StageView },
@@ -70,11 +73,11 @@ const kinds: PanelKind[] = [
   // prettier-ignore
   { id: 'recordings', title: () => t().recordings.title, icon: 'record', isFirst: true, load: () => import('./RecordingsPanel.svelte') },
   // prettier-ignore
-  { id: 'marks', title: () => t().marks.title, icon: 'goal', isFirst: true, isOffered: (app) => app.recordings.isServed, load: () => import('./MarksPanel.svelte') },
+  { id: 'marks', title: () => t().marks.title, icon: 'goal', isFirst: true, isOffered: isReplay, load: () => import('./MarksPanel.svelte') },
   // prettier-ignore
-  { id: 'compare', title: () => t().recordings.comparison, icon: 'compare', isFirst: true, isOffered: (app) => app.recordings.isServed, load: () => import('./ComparePanel.svelte') },
+  { id: 'compare', title: () => t().recordings.comparison, icon: 'compare', isFirst: true, isOffered: isReplay, load: () => import('./ComparePanel.svelte') },
   // prettier-ignore
-  { id: 'rerun', title: () => t().rerun.title, icon: 'reset', isFirst: true, isOffered: (app) => app.recordings.isServed, load: () => import('./RerunPanel.svelte') },
+  { id: 'rerun', title: () => t().rerun.title, icon: 'reset', isFirst: true, isOffered: isReplay, load: () => import('./RerunPanel.svelte') },
   // prettier-ignore
   { id: 'transforms', title: () => t().panelNames.transforms, icon: 'frames', isMany: true, load: () => import('./TransformsPanel.svelte') },
   // prettier-ignore
@@ -91,6 +94,8 @@ const kinds: PanelKind[] = [
   { id: 'parameterSets', title: () => t().panelNames.parameterSets, icon: 'save', load: () => import('./ParameterSetsPanel.svelte') },
   // prettier-ignore
   { id: 'joints', title: () => t().panelNames.joints, icon: 'joint', isKept: true, load: () => import('./JointsPanel.svelte') },
+  // prettier-ignore
+  { id: 'handles', title: () => t().handles.title, icon: 'move', load: () => import('./HandlesPanel.svelte') },
   // prettier-ignore
   { id: 'table', title: () => t().panelNames.table, icon: 'table', isMany: true, load: () => import('./TablePanel.svelte') },
 ];

@@ -1,7 +1,7 @@
 /** Editing of the simulated world: the selection, all edits with undo and redo, the clipboard. */
 import { untrack } from 'svelte';
 import type { App } from '../app/app.svelte';
-import type { Pose } from '../core/pose';
+import { fromRpy, type Pose, type Vec3 } from '../core/pose';
 import { messageOf } from '../core/types';
 import { t } from '../texts/language.svelte';
 import { aligned, distributed, type Extent, type Side } from './align';
@@ -13,7 +13,7 @@ import {
   type EditKind,
   type ModelSource,
 } from './edits';
-import { freeName, modelSdf, modelsIn, renamed } from './sdf_text';
+import { freeName, modelSdf, modelsIn, poseIn, renamed } from './sdf_text';
 
 /** Shortest time between two poses of a dragged model that are sent [ms]. */
 const SEND_PERIOD_MS = 60;
@@ -38,6 +38,8 @@ export class WorldEditor {
   /** Number of copied models. */
   copied = $state(0);
   private clipboard: Copied[] = [];
+  /** True if the clipboard of the system has the first copied model. */
+  private isOnSystem = false;
   private history = new EditHistory();
   private queue: Promise<unknown> = Promise.resolve();
   /** Models of the last scene. */
@@ -262,13 +264,55 @@ export class WorldEditor {
       this.clipboard = found;
       this.copied = found.length;
       this.said(t().edit.copied(models.join(', ')));
-      await navigator.clipboard?.writeText(found[0]!.sdf).catch(() => undefined);
+      const written = navigator.clipboard?.writeText(found[0]!.sdf);
+      this.isOnSystem = await (written ?? Promise.reject()).then(
+        () => true,
+        () => false,
+      );
     });
   }
 
   paste(): Promise<boolean> {
     const models = this.clipboard.map(({ name }) => name);
     return this.run(async () => this.insertCopies('paste', this.clipboard, models));
+  }
+
+  /** True for the text that the page put on the clipboard of the system, or that the system did not accept. */
+  isOwnText(text: string): boolean {
+    return this.copied > 0 && (!this.isOnSystem || text === this.clipboard[0]?.sdf);
+  }
+
+  /** Inserts the models of SDF text at the poses that they have there. */
+  pasteSdf(text: string): Promise<boolean> {
+    return this.run(async () => {
+      const found = modelsIn(text);
+      if (found.size === 0) {
+        this.app.notice('error', t().sdfPaste.noModel);
+        return false;
+      }
+      const taken = this.names();
+      const changes: Change[] = [];
+      for (const name of found.keys()) {
+        const model = freeName(name || 'model', taken);
+        taken.add(model);
+        const sdf = renamed(modelSdf(text, name)!, model);
+        try {
+          const [x, y, z, roll, pitch, yaw] = poseIn(found.get(name)!) as [...Vec3, ...Vec3];
+          const pose = { t: [x, y, z] as Vec3, q: fromRpy(roll, pitch, yaw) };
+          changes.push({ kind: 'insert', model, source: { sdf, file: '' }, pose });
+        } catch (error) {
+          this.app.notice('error', t().sdfPaste.wrongPose(name, (error as Error).message));
+          return false;
+        }
+      }
+      const models = changes.map(({ model }) => model);
+      const isDone = await this.make('paste', models, changes);
+      if (isDone) {
+        this.app.selection = models;
+        this.said(t().sdfPaste.pasted(models.join(', ')));
+      }
+      return isDone;
+    });
   }
 
   /** Inserts copies beside the originals. */

@@ -43,6 +43,27 @@ export function modelsIn(worldSdf: string): Map<string, string> {
   return out;
 }
 
+/** Pose of a model by its element: position [m], and roll, pitch and yaw [rad]; zeros without one. */
+export function poseIn(model: string): number[] {
+  const zeros = [0, 0, 0, 0, 0, 0];
+  let depth = 0;
+  for (const match of model.matchAll(TAG)) {
+    const [tag, slash, element, attributes = ''] = match;
+    if (!element) continue;
+    const isClosed = attributes.trimEnd().endsWith('/');
+    if (slash) depth--;
+    else if (depth === 1 && element === 'pose' && !isClosed) {
+      const from = match.index + tag.length;
+      const text = model.slice(from, model.indexOf('<', from)).trim();
+      const numbers = text === '' ? zeros : text.split(/\s+/).map(Number);
+      if (numbers.length !== 6 || !numbers.every(Number.isFinite)) throw new Error(text);
+      const unit = /\bdegrees\s*=\s*["'](true|1)["']/.test(attributes) ? Math.PI / 180 : 1;
+      return numbers.map((value, k) => (k < 3 ? value : value * unit));
+    } else if (!isClosed) depth++;
+  }
+  return zeros;
+}
+
 /** File with one model of a world; `undefined` if the world has no such model. */
 export function modelSdf(worldSdf: string, model: string): string | undefined {
   const element = modelsIn(worldSdf).get(model);

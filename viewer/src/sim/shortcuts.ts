@@ -1,4 +1,4 @@
-/** Keys that edit the world: undo, redo, duplicate, copy, paste, moves. */
+/** Keys that edit the world: undo, redo, duplicate, copy, moves; and what is pasted. */
 import type { App } from '../app/app.svelte';
 import type { WorldEditor } from './editor.svelte';
 import { nudge } from './nudge';
@@ -22,11 +22,20 @@ export function editKey(app: App, editor: WorldEditor, event: KeyboardEvent): bo
   if (key === 'z') void (event.shiftKey ? editor.redo() : editor.undo());
   else if (key === 'y') void editor.redo();
   else if (key === 'd' && selection.length > 0) void editor.duplicate(selection);
-  else if (key === 'v' && editor.copied > 0) void editor.paste();
   else if (key === 'c' && selection.length > 0) {
     // Text that was marked is copied as everywhere.
     if (getSelection()?.toString()) return false;
     void editor.copy(selection);
   } else return selection.length > 0 && nudge(app, editor, event.key, event.shiftKey);
+  return true;
+}
+
+/** Pastes the copied models, or the models of SDF text from another program. Returns true if it did. */
+export function pasteInto(app: App, editor: WorldEditor, event: ClipboardEvent): boolean {
+  if (!app.worldName || isTyping(event.target) || isElsewhere()) return false;
+  const text = event.clipboardData?.getData('text/plain') ?? '';
+  if (/<model\b/.test(text) && !editor.isOwnText(text)) void editor.pasteSdf(text);
+  else if (editor.copied > 0) void editor.paste();
+  else return false;
   return true;
 }

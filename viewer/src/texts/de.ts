@@ -1265,4 +1265,64 @@ export const de: Texts = {
     more: (count: number) => `… und ${count} weitere Werte.`,
     unknown: 'Die Nachrichten sind nicht lesbar; ihre Bytes sind verschieden.',
   },
+  mapDifference: {
+    help: 'Zellen, die in der ersten Karte, in der zweiten oder in beiden belegt sind',
+    cells: (first, second, both) =>
+      `Belegt: ${first.toLocaleString('de')} nur in der ersten, ${second.toLocaleString('de')} nur in der zweiten, ${both.toLocaleString('de')} in beiden`,
+    tooFarApart: (width, height) =>
+      `Die Karten liegen zu weit auseinander: beide zusammen hätten ${width} x ${height} Zellen`,
+  },
+  replayTime: {
+    noMessageAtTime: (topic) => `Keine Nachricht auf ${topic} zu dieser Zeit`,
+  },
+  handles: {
+    title: 'Interaktive Marker',
+    none: 'Keine interaktiven Marker. Fügen Sie eine Anzeige „InteractiveMarkers“ mit dem Namensraum eines Nodes hinzu, der welche anbietet.',
+    marker: 'Marker',
+    control: 'Bedienelement',
+    length: 'Schritt [m]',
+    angle: 'Schritt [°]',
+    menu: 'Menü öffnen',
+    press: 'Drücken',
+    noStep: 'Dieses Bedienelement bewegt sich nicht in diese Richtung',
+    noMenu: 'Dieser Marker hat kein Menü',
+    move: (name) => `${name} bewegen`,
+    pose: (frame, xyz, rpy) =>
+      `${frame}: x ${xyz[0]}, y ${xyz[1]}, z ${xyz[2]} m; Roll ${rpy[0]}, Pitch ${rpy[1]}, Yaw ${rpy[2]}°`,
+    keys: 'Umschalt: ein Zehntel des Schritts. Eingabe: das Menü.',
+    help: {
+      axis: 'Pfeiltasten: entlang der Achse.',
+      turn: 'Pfeiltasten: um die Achse.',
+      plane: 'Pfeiltasten: in der Ebene.',
+      planeAndTurn: 'Pfeiltasten: in der Ebene. Bild auf und Bild ab: um ihre Normale.',
+      space:
+        'Pfeiltasten: nach rechts, links, oben und unten auf dem Bildschirm. Bild auf und Bild ab: weg von Ihnen und zu Ihnen hin. Strg: drehen.',
+      tumble:
+        'Pfeiltasten: um die Achsen des Bildschirms. Bild auf und Bild ab: in der Ebene des Bildschirms.',
+      button: 'Eingabe: den Knopf drücken.',
+    },
+    modes: {
+      axis: 'entlang einer Achse bewegen',
+      turn: 'um eine Achse drehen',
+      plane: 'in einer Ebene bewegen',
+      planeAndTurn: 'in einer Ebene bewegen und drehen',
+      space: 'im Raum bewegen',
+      tumble: 'im Raum drehen',
+      button: 'Knopf',
+    },
+    directions: {
+      ArrowLeft: 'Links',
+      ArrowRight: 'Rechts',
+      ArrowUp: 'Auf',
+      ArrowDown: 'Ab',
+      PageUp: 'Weg, oder links herum drehen',
+      PageDown: 'Heran, oder rechts herum drehen',
+    },
+  },
+  sdfPaste: {
+    noModel: 'Die Zwischenablage enthält kein vollständiges <model> in SDF',
+    wrongPose: (model, pose) =>
+      `Die Pose von ${model} ist „${pose}“; nötig sind sechs Zahlen: x y z roll pitch yaw`,
+    pasted: (models) => `${models} eingefügt`,
+  },
 };

@@ -1275,6 +1275,66 @@ export const en = {
     more: (count: number) => `… and ${count} more values.`,
     unknown: 'The messages cannot be decoded; their bytes differ.',
   },
+  mapDifference: {
+    help: 'Cells that are occupied in the first map, in the second, or in both',
+    cells: (first: number, second: number, both: number) =>
+      `Occupied: ${first.toLocaleString('en')} only in the first, ${second.toLocaleString('en')} only in the second, ${both.toLocaleString('en')} in both`,
+    tooFarApart: (width: number, height: number) =>
+      `The maps are too far apart: both would have ${width} x ${height} cells`,
+  },
+  replayTime: {
+    noMessageAtTime: (topic: string) => `No message on ${topic} at this time`,
+  },
+  handles: {
+    title: 'Interactive markers',
+    none: 'No interactive markers. Add a display "InteractiveMarkers" with the namespace of a node that offers them.',
+    marker: 'Marker',
+    control: 'Control',
+    length: 'Step [m]',
+    angle: 'Step [°]',
+    menu: 'Open the menu',
+    press: 'Press',
+    noStep: 'This control does not move in this direction',
+    noMenu: 'This marker has no menu',
+    move: (name: string) => `Move ${name}`,
+    pose: (frame: string, xyz: [string, string, string], rpy: [string, string, string]) =>
+      `${frame}: x ${xyz[0]}, y ${xyz[1]}, z ${xyz[2]} m; roll ${rpy[0]}, pitch ${rpy[1]}, yaw ${rpy[2]}°`,
+    keys: 'Shift: a tenth of the step. Enter: the menu.',
+    help: {
+      axis: 'Arrow keys: along the axis.',
+      turn: 'Arrow keys: about the axis.',
+      plane: 'Arrow keys: in the plane.',
+      planeAndTurn: 'Arrow keys: in the plane. Page Up and Page Down: about its normal.',
+      space:
+        'Arrow keys: right, left, up and down on the screen. Page Up and Page Down: away and towards you. Ctrl: rotate.',
+      tumble:
+        'Arrow keys: about the axes of the screen. Page Up and Page Down: in the plane of the screen.',
+      button: 'Enter: press the button.',
+    },
+    modes: {
+      axis: 'move along an axis',
+      turn: 'rotate about an axis',
+      plane: 'move in a plane',
+      planeAndTurn: 'move in a plane and rotate',
+      space: 'move in space',
+      tumble: 'rotate in space',
+      button: 'button',
+    },
+    directions: {
+      ArrowLeft: 'Left',
+      ArrowRight: 'Right',
+      ArrowUp: 'Up',
+      ArrowDown: 'Down',
+      PageUp: 'Away, or rotate left',
+      PageDown: 'Towards you, or rotate right',
+    },
+  },
+  sdfPaste: {
+    noModel: 'The clipboard has no complete <model> of SDF',
+    wrongPose: (model: string, pose: string) =>
+      `The pose of ${model} is "${pose}"; six numbers are needed: x y z roll pitch yaw`,
+    pasted: (models: string) => `${models} pasted`,
+  },
 };
 
 export type Texts = typeof en;

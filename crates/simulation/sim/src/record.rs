@@ -91,6 +91,8 @@ struct State {
     /// `None` after the end or a failure.
     writer: Option<Writer<File>>,
     topics: BTreeMap<String, TopicId>,
+    /// Time of the start while the retained messages of latched topics are delivered \[ns\].
+    start_ns: Option<i64>,
     failure: Option<WriteError>,
     spent: Duration,
 }
@@ -131,11 +133,13 @@ impl SimulationRecorder {
         let state = State {
             writer: Some(writer),
             topics: BTreeMap::new(),
+            start_ns: Some(simulation.time_ns()),
             failure: None,
             spent: Duration::ZERO,
         };
         let shared = Arc::new(Shared { wanted, state: Mutex::new(state) });
         let tap = simulation.graph().tap(Box::new(BagSink(Arc::clone(&shared))));
+        shared.lock().start_ns = None;
         Ok(Self { path: file, folder, tap, shared, truth: None })
     }
 
@@ -215,7 +219,10 @@ impl State {
     /// After a failure no messages are written; `finish` reports it.
     fn take(&mut self, topic: &TopicInfo, sample: &Sample) {
         let Some(writer) = &mut self.writer else { return };
-        if let Err(failure) = write(writer, &mut self.topics, topic, sample) {
+        // As in rosbag2, messages that were published before the start are received at the start.
+        let log_ns = self.start_ns.map_or(sample.time_ns, |start| start.max(sample.time_ns));
+        let stamp = Stamp { log_ns, ..Stamp::at(sample.time_ns) };
+        if let Err(failure) = write(writer, &mut self.topics, topic, sample, stamp) {
             self.failure = Some(failure);
             self.writer = None;
         }
@@ -227,6 +234,7 @@ fn write(
     topics: &mut BTreeMap<String, TopicId>,
     topic: &TopicInfo,
     sample: &Sample,
+    stamp: Stamp,
 ) -> Result<(), WriteError> {
     let id = match topics.get(&topic.name) {
         Some(id) => *id,
@@ -237,7 +245,7 @@ fn write(
         }
     };
     let bytes = sample.cdr().map_err(|_| WriteError::TooLong(topic.name.clone()))?;
-    writer.write(id, Stamp::at(sample.time_ns), bytes)
+    writer.write(id, stamp, bytes)
 }
 
 fn description(topic: &TopicInfo) -> Topic {

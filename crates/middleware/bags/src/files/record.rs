@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use crate::{BagInfo, BagTopic, Stamp, Style, Target, Translation};
 use periplus_diagnostics::Diagnostics;
-use periplus_graph::{Graph, Qos, Sample, Sink, TapId, TopicInfo};
+use periplus_graph::{Durability, Graph, Qos, Sample, Sink, TapId, TopicInfo};
 use periplus_msgs::TypeRegistry;
 
 use crate::files::profile::profile;
@@ -63,6 +63,8 @@ pub struct Recording {
 
 struct Shared {
     settings: RecordSettings,
+    /// Time at which the recording began, by the clock of the graph \[ns\].
+    start_ns: i64,
     state: Mutex<State>,
 }
 
@@ -73,11 +75,15 @@ struct State {
     topics: BTreeMap<String, Option<Way>>,
     failure: Option<BagError>,
     messages: u64,
+    /// True once the clock of the graph was behind the start: a simulation was reset.
+    is_reset: bool,
 }
 
 /// A recorded topic.
 struct Way {
     id: usize,
+    /// True while only retained messages were received, which were published before the start.
+    is_retained: bool,
     /// Conversion, for ROS 1 bags.
     translation: Translation,
 }
@@ -100,8 +106,10 @@ impl Recorder {
             topics: BTreeMap::new(),
             failure: None,
             messages: 0,
+            is_reset: false,
         };
-        let shared = Arc::new(Shared { settings, state: Mutex::new(state) });
+        let start_ns = graph.now_ns();
+        let shared = Arc::new(Shared { settings, start_ns, state: Mutex::new(state) });
         let tap = graph.tap(Box::new(BagSink(shared.clone())));
         Ok(Self { graph: graph.clone(), tap, shared })
     }
@@ -164,8 +172,14 @@ impl Sink for BagSink {
     fn take(&self, topic: &TopicInfo, sample: &Sample) {
         let mut state = self.0.lock();
         let settings = &self.0.settings;
-        let time_ns = settings.clock.as_ref().map_or(sample.time_ns, |now| now());
-        if let Err(error) = state.take(settings, topic, sample, time_ns) {
+        let stamp = match &settings.clock {
+            Some(now) => Stamp::at(now()),
+            None => Stamp {
+                log_ns: state.reception_ns(topic, sample, self.0.start_ns),
+                ..Stamp::at(sample.time_ns)
+            },
+        };
+        if let Err(error) = state.take(settings, topic, sample, stamp) {
             state.fail(error);
         }
     }
@@ -178,23 +192,47 @@ impl State {
         self.writer = None;
     }
 
+    /// Time at which the recorder received a message. As in rosbag2, a latched message that was
+    /// published before the recording began is received at the beginning.
+    fn reception_ns(&mut self, topic: &TopicInfo, sample: &Sample, start_ns: i64) -> i64 {
+        let time_ns = sample.time_ns;
+        let is_first = match self.topics.get_mut(&topic.name) {
+            Some(Some(way)) => {
+                way.is_retained &= time_ns < start_ns;
+                way.is_retained
+            }
+            Some(None) => false,
+            None => true,
+        };
+        let is_latched =
+            topic.publishers.iter().any(|it| it.qos.durability == Durability::TransientLocal);
+        if time_ns >= start_ns {
+            return time_ns;
+        }
+        self.is_reset |= !is_latched;
+        if is_first && !self.is_reset { start_ns } else { time_ns }
+    }
+
     fn take(
         &mut self,
         settings: &RecordSettings,
         topic: &TopicInfo,
         sample: &Sample,
-        time_ns: i64,
+        stamp: Stamp,
     ) -> Result<(), BagError> {
         let Some(writer) = &mut self.writer else { return Ok(()) };
         if !self.topics.contains_key(&topic.name) {
-            let way = way(writer, settings, topic)?;
+            let mut way = way(writer, settings, topic)?;
+            if let Some(way) = &mut way {
+                way.is_retained = stamp.publish_ns < stamp.log_ns;
+            }
             self.topics.insert(topic.name.clone(), way);
         }
         let Some(Some(way)) = self.topics.get_mut(&topic.name) else { return Ok(()) };
         // A message that cannot be encoded is not recorded.
         let Ok(bytes) = sample.cdr() else { return Ok(()) };
         let Ok(data) = way.translation.translate(bytes) else { return Ok(()) };
-        writer.write(way.id, Stamp::at(time_ns), data)?;
+        writer.write(way.id, stamp, data)?;
         self.messages += 1;
         Ok(())
     }
@@ -216,7 +254,7 @@ fn way(
         return Ok(None);
     };
     let id = writer.topic(translation.topic())?;
-    Ok(Some(Way { id, translation }))
+    Ok(Some(Way { id, is_retained: false, translation }))
 }
 
 /// A topic of a graph in the form of a bag.

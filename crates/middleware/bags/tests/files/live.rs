@@ -134,6 +134,29 @@ fn latched_topics_stay_latched() {
     }
 }
 
+#[test]
+fn latched_messages_are_recorded_at_the_beginning_of_the_recording() {
+    let folder = Folder::new("retained");
+    let path = folder.path("bag.mcap");
+    let graph = Graph::new();
+    let node = graph.node(NodeSettings::new("robot").bare()).unwrap();
+    let text = node.publisher::<Text>("/robot_description", Qos::latched(1)).unwrap();
+    text.publish(Text { data: "<robot/>".into() });
+    graph.advance_to(5_000_000_000);
+    let settings = RecordSettings::all(WriteSettings::new(Storage::Mcap));
+    let recorder = Recorder::start(&graph, &path, settings).unwrap();
+    graph.advance_to(6_000_000_000);
+    text.publish(Text { data: "<robot/>".into() });
+    recorder.finish().unwrap();
+    let bag = Bag::open(&path).unwrap();
+    let mut messages = bag.messages(Selection::default());
+    let mut times = Vec::new();
+    while let Some(message) = messages.next().unwrap() {
+        times.push((message.log_ns, message.publish_ns));
+    }
+    assert_eq!(times, [(5_000_000_000, 0), (6_000_000_000, 6_000_000_000)]);
+}
+
 /// Child process of [`a_killed_recording_loses_a_second_at_most`]; does nothing on its own.
 #[test]
 fn child_that_records_until_it_is_killed() {

@@ -13,6 +13,7 @@ mod file;
 mod jobs;
 mod latched;
 mod live;
+mod marker_index;
 mod marks;
 mod messages;
 mod number_path;

@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use crate::client::Server;
-use crate::run::{ARM_TENTHS, COSTMAP, ODOM, TF, UPDATES};
+use crate::run::{ARM_TENTHS, COSTMAP, MARKERS, ODOM, TF, UPDATES};
 
 const TENTH_NS: u64 = 100_000_000;
 
@@ -26,7 +26,7 @@ fn the_list_describes_a_recording() {
         (&json!(1), &json!("run"), &json!("mcap"))
     );
     assert_eq!((&run["startNs"], &run["endNs"]), (&json!("0"), &json!("10000000000")));
-    assert_eq!((&run["messageCount"], &run["progress"]), (&json!(217), &json!(1.0)));
+    assert_eq!((&run["messageCount"], &run["progress"]), (&json!(318), &json!(1.0)));
     let odom = &run["topics"][0];
     assert_eq!(
         (&odom["id"], &odom["topic"], &odom["count"]),
@@ -42,7 +42,7 @@ fn the_list_describes_a_recording() {
         .iter()
         .map(|topic| topic["isLatched"].as_bool().unwrap())
         .collect();
-    assert_eq!(is_latched, [false, false, true, false, false, true]);
+    assert_eq!(is_latched, [false, false, true, false, false, true, false]);
     client.say(&json!({"op": "closeRecording", "requestId": 1, "recording": 1}));
     client.list_when(|list| list["recordings"] == json!([]));
 }
@@ -81,6 +81,20 @@ fn a_state_has_every_transform_and_all_that_is_latched() {
     // Updates belong to the last complete grid.
     let times = client.state(7, 48, &[need(UPDATES, 0, 1)]).times();
     assert_eq!(times, [25, 35, 45].map(|tenths| (UPDATES, tenths * TENTH_NS)));
+}
+
+#[test]
+fn a_state_has_every_marker_that_is_shown() {
+    let (_server, mut client) = Server::with_run("markers");
+    client.say(&json!({"op": "fetchMarks", "requestId": 1, "recording": 1}));
+    while client.hears(&["marks"])["isComplete"] != true {}
+    let mut times = |id: u32, tenths: i64| {
+        let times = client.state(id, tenths, &[need(MARKERS, 0, 1)]).times();
+        times.into_iter().map(|(_, time_ns)| time_ns / TENTH_NS).collect::<Vec<_>>()
+    };
+    assert_eq!(times(2, 0), [0]);
+    assert_eq!(times(3, 49), [1, 2, 49]);
+    assert_eq!(times(4, 100), [1, 100]);
 }
 
 #[test]

@@ -12,12 +12,14 @@ use periplus_msgs::nav_msgs::{OccupancyGrid, Odometry};
 use periplus_msgs::rcl_interfaces::Log;
 use periplus_msgs::std_msgs::Header;
 use periplus_msgs::tf2_msgs::TFMessage;
+use periplus_msgs::visualization_msgs::Marker;
 
 /// Ids of the topics, in the order in which they are added.
 pub(crate) const ODOM: u32 = 1;
 pub(crate) const TF: u32 = 2;
 pub(crate) const COSTMAP: u32 = 3;
 pub(crate) const UPDATES: u32 = 4;
+pub(crate) const MARKERS: u32 = 7;
 
 /// Tenths of a second of the only transform of the arm.
 pub(crate) const ARM_TENTHS: i64 = 1;
@@ -37,7 +39,7 @@ pub(crate) fn transform(child: &str) -> TFMessage {
 }
 
 /// Odometry and a transform each 0.1 s, a latched costmap at 2 s with updates each second, an error
-/// at 4 s, and a goal that is reached at 8 s.
+/// at 4 s, and a goal that is reached at 8 s. Markers.
 pub(crate) fn write(path: &Path) {
     let file = File::create(path).unwrap();
     let mut run = Run(Writer::new(file, Settings::new("run.mcap")).unwrap());
@@ -51,6 +53,7 @@ pub(crate) fn write(path: &Path) {
     let rosout = run.0.topic(Topic::of::<Log>("/rosout", &[QosProfile::latched(1000)])).unwrap();
     let name = "/navigate_to_pose/_action/status";
     let status = run.0.topic(Topic::of::<action_msgs::GoalStatusArray>(name, &[latched])).unwrap();
+    let markers = run.0.topic(Topic::of::<Marker>("/markers", &[reliable])).unwrap();
     for tenths in 0..=100 {
         let mut odometry =
             Odometry { header: Header::at(tenths * 100_000_000, "odom"), ..Default::default() };
@@ -65,6 +68,14 @@ pub(crate) fn write(path: &Path) {
         }
         if tenths % 10 == 5 {
             run.put(updates, tenths, &OccupancyGridUpdate::default());
+        }
+        // The first marker stays, the second one is deleted at 5 s, and the third one is published
+        // each 0.1 s.
+        match tenths {
+            1 => run.put(markers, tenths, &Marker { id: 1, ..Marker::default() }),
+            2 => run.put(markers, tenths, &Marker { id: 2, ..Marker::default() }),
+            50 => run.put(markers, tenths, &Marker { id: 2, action: 2, ..Marker::default() }),
+            _ => run.put(markers, tenths, &Marker { id: 3, ..Marker::default() }),
         }
         if tenths == 40 {
             run.put(

@@ -26,7 +26,7 @@ const WAIT_PERIOD: Duration = Duration::from_millis(2);
 /// Period at which clients get new marks.
 const SEND_PERIOD: Duration = Duration::from_secs(1);
 
-/// Indexes all transforms and finds marks, until the recording is closed.
+/// Indexes all transforms and markers and finds marks, until the recording is closed.
 pub(super) fn run(recording: &Recording) {
     if let Err(error) = read(recording) {
         // Transforms are then found by reading.
@@ -39,10 +39,14 @@ fn read(recording: &Recording) -> Result<(), BagError> {
     let bag = &recording.bag;
     let mut detectors = MarkDetector::of_topics(bag.topics());
     let is_transforms = |topic: usize| recording.is_transforms.get(topic) == Some(&true);
+    let markers = |topic: usize| recording.marker_topics.get(topic).copied().flatten();
     let topics: Vec<usize> = (0..bag.topics().len())
-        .filter(|&topic| is_transforms(topic) || detectors[topic].is_some())
+        .filter(|&topic| {
+            is_transforms(topic) || markers(topic).is_some() || detectors[topic].is_some()
+        })
         .collect();
     let mut is_full = false;
+    let mut is_full_of_markers = false;
     let mut since = Stopwatch::start();
     let mut from_ns = Some(i64::MIN);
     while let Some(start_ns) = from_ns {
@@ -62,6 +66,11 @@ fn read(recording: &Recording) -> Result<(), BagError> {
             {
                 is_full = !recording.transforms.add(topic, time_ns, &message);
             }
+            if !is_full_of_markers
+                && let Some(markers) = markers(topic).and_then(|markers| markers.decode(data))
+            {
+                is_full_of_markers = !recording.markers.add(topic, time_ns, *location, &markers);
+            }
             if let Some(Some(detector)) = detectors.get_mut(topic) {
                 recording.marks.add(&bag.topics()[topic], detector.detect(time_ns, data));
             }
@@ -74,6 +83,9 @@ fn read(recording: &Recording) -> Result<(), BagError> {
         let reach = page.next_ns.map_or(Reach::All, |next_ns| Reach::Until(next_ns - 1));
         if !is_full {
             recording.transforms.set_reach(reach);
+        }
+        if !is_full_of_markers {
+            recording.markers.set_reach(reach);
         }
         if since.elapsed() >= SEND_PERIOD {
             since = Stopwatch::start();

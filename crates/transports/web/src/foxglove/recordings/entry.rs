@@ -12,6 +12,7 @@ use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_transport::lock;
 
 use super::latched::{grid_of_updates, latched_depth};
+use super::marker_index::{MarkerIndex, MarkerTopic};
 use super::marks::MarkList;
 use super::transform_index::TransformIndex;
 use super::upload::TemporaryFolder;
@@ -70,9 +71,12 @@ pub(super) struct Recording {
     pub(super) latched: Vec<Option<usize>>,
     /// True for topics of transforms.
     pub(super) is_transforms: Vec<bool>,
+    /// For each topic of markers, the type of its messages.
+    pub(super) marker_topics: Vec<Option<MarkerTopic>>,
     /// For each topic with updates of a grid, the topic of the grid.
     pub(super) grid_of_updates: Vec<Option<usize>>,
     pub(super) transforms: TransformIndex,
+    pub(super) markers: MarkerIndex,
     pub(super) marks: MarkList,
     /// Ends the background pass.
     pub(super) is_closed: AtomicBool,
@@ -90,8 +94,10 @@ impl Recording {
         Self {
             latched: topics.iter().map(latched_depth).collect(),
             is_transforms: topics.iter().map(is_transforms).collect(),
+            marker_topics: topics.iter().map(MarkerTopic::of).collect(),
             grid_of_updates: topics.iter().map(|topic| grid_of_updates(topic, topics)).collect(),
             transforms: TransformIndex::default(),
+            markers: MarkerIndex::default(),
             marks: MarkList::default(),
             is_closed: AtomicBool::new(false),
             fetches: AtomicUsize::new(0),

@@ -87,6 +87,9 @@ fn locate(
         if recording.is_transforms.get(topic) == Some(&true) {
             transforms(recording, topic, time_ns, answer, &mut found)?;
         }
+        if recording.marker_topics.get(topic).is_some_and(Option::is_some) {
+            found.extend(markers(recording, topic, time_ns, answer)?);
+        }
         if let Some(Some(grid)) = recording.grid_of_updates.get(topic)
             && let Some(last) = bag.newest(*grid, time_ns, 1)?.first()
         {
@@ -117,6 +120,27 @@ fn history(
         found.extend(page.locations);
         found.drain(..found.len().saturating_sub(most));
         from_ns = page.next_ns;
+    }
+    Ok(found)
+}
+
+/// Messages that give the markers that exist at a time. Of the part of the recording that is not
+/// indexed yet only the last seconds are read.
+fn markers(
+    recording: &Recording,
+    topic: usize,
+    time_ns: i64,
+    answer: &FetchAnswer<'_>,
+) -> Result<BTreeSet<MessageLocation>, BagError> {
+    let reach = recording.markers.reach();
+    let length_ns = match reach {
+        Reach::All => 0,
+        Reach::Until(reached_ns) => time_ns.saturating_sub(reached_ns).clamp(0, LOOK_BACK_NS),
+        Reach::Nothing => LOOK_BACK_NS,
+    };
+    let mut found = recording.markers.state(topic, time_ns);
+    if length_ns > 0 {
+        found.extend(history(recording, topic, time_ns, length_ns, MAX_HISTORY, answer)?);
     }
     Ok(found)
 }
