@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use periplus_bags::Compression;
 use periplus_nav_nodes::slam_toolbox::Pace;
 use periplus_os::Stopwatch;
 use periplus_sim::{
@@ -23,6 +24,26 @@ pub struct RecordingRequest {
     pub path: PathBuf,
     /// Topics to record.
     pub wanted: TopicFilter,
+    /// Compression of the messages.
+    pub compression: Compression,
+}
+
+impl RecordingRequest {
+    /// Recording with the default compression.
+    #[must_use]
+    pub fn new(
+        path: impl Into<PathBuf>,
+        wanted: impl Fn(&str) -> bool + Send + Sync + 'static,
+    ) -> Self {
+        Self { path: path.into(), wanted: Box::new(wanted), compression: Compression::default() }
+    }
+
+    /// Starts to record a simulation.
+    pub(crate) fn start(self, simulation: &Simulation) -> Result<SimulationRecorder, RunError> {
+        let Self { path, wanted, compression } = self;
+        SimulationRecorder::start_with(simulation, &path, compression, wanted)
+            .map_err(|error| RunError::Recording { path, error })
+    }
 }
 
 /// Parts of a session. Everything but the world is optional.
@@ -254,8 +275,8 @@ impl SessionBuilder {
         services: &mut Services,
     ) -> Result<Option<Page>, RunError> {
         let Some(settings) = &self.page else { return Ok(None) };
-        services.show(simulation, settings.context.folders()).map_err(RunError::Display)?;
-        if let Some(file) = &settings.context.world_out {
+        services.show(simulation, settings.context().folders()).map_err(RunError::Display)?;
+        if let Some(file) = &settings.context().world_out {
             services.write_world_to(simulation, file.clone()).map_err(RunError::Display)?;
         }
         Ok(Page::open(simulation.graph(), settings)?)
@@ -267,9 +288,7 @@ fn record(
     request: RecordingRequest,
     records_truth: bool,
 ) -> Result<SimulationRecorder, RunError> {
-    let RecordingRequest { path, wanted } = request;
-    let recorder = SimulationRecorder::start(simulation, &path, wanted)
-        .map_err(|error| RunError::Recording { path, error })?;
+    let recorder = request.start(simulation)?;
     if records_truth {
         recorder.with_truth(simulation).map_err(RunError::Services)
     } else {

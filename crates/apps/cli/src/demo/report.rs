@@ -3,10 +3,9 @@
 use periplus_geometry::Pose2;
 use periplus_maps::BesideTruth;
 use periplus_session::RunReport;
+use periplus_session::demo::Explorer;
 use periplus_session::nodes::MappingNode;
 use serde_json::{Value, json};
-
-use super::explorer::Explorer;
 
 /// Report of the run with map quality and pose error. The robot starts at the origin of the world,
 /// which is also the origin of the map, so that estimate and ground truth can be compared.

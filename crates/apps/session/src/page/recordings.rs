@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use periplus_os::fs;
 use periplus_web::foxglove::{RecordingSettings, Recordings};
 
 use crate::rerun::RerunJobs;
@@ -12,9 +13,9 @@ use crate::terminal;
 /// by `periplus bag record`.
 pub(super) fn open(paths: &[PathBuf]) -> Result<Arc<Recordings>, String> {
     let here = terminal::working_folder();
-    let settings = RecordingSettings::new(here, std::env::temp_dir());
+    let settings = RecordingSettings::new(here, fs::temp_dir());
     let recordings = Recordings::new(settings);
-    recordings.set_jobs(Arc::new(RerunJobs::new(std::env::temp_dir())));
+    recordings.set_jobs(Arc::new(RerunJobs::new(fs::temp_dir())));
     for path in paths {
         recordings.open(path).map_err(|error| error.to_string())?;
     }

@@ -38,7 +38,7 @@ impl Jobs for RerunJobs {
     ) -> Result<PathBuf, JobError> {
         let kind: RerunKind = job.kind.parse().map_err(failed)?;
         let number = self.count.fetch_add(1, Ordering::Relaxed);
-        let name = format!("periplus-{}-{}-{number}.mcap", kind.name(), std::process::id());
+        let name = format!("periplus-{}-{}-{number}.mcap", kind.name(), periplus_os::process_id());
         let request = RerunRequest {
             kind,
             recording: job.path.clone(),

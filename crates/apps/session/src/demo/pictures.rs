@@ -7,7 +7,8 @@ use periplus_graph::{Graph, GraphError, Mailbox, Node, NodeSettings, Qos};
 use periplus_grid::Line;
 use periplus_images::{Layout, write_png};
 use periplus_msgs::sensor_msgs::{Image, LaserScan};
-use periplus_session::files::{FileError, write};
+
+use crate::files::{FileError, write};
 
 /// Time before the end at which the camera is subscribed \[ns\]: images cost more than all other
 /// sensors.
@@ -22,7 +23,7 @@ const HIT_COLOUR: [u8; 3] = [200, 30, 40];
 const ROBOT_COLOUR: [u8; 3] = [30, 60, 120];
 
 /// Keeps the last scan and the last images.
-pub(super) struct SnapshotRecorder {
+pub(crate) struct SnapshotRecorder {
     node: Node,
     end_ns: Option<i64>,
     scans: Mailbox<LaserScan>,
