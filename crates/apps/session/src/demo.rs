@@ -19,7 +19,7 @@ use crate::session::SessionTask;
 
 use pictures::SnapshotRecorder;
 
-pub use explorer::Explorer;
+pub use explorer::ExplorerNode;
 pub use stage::{WORLD_NAME, composition};
 
 /// Session of the demo, at full speed, whose results are written to a folder at its end.
@@ -49,7 +49,7 @@ pub fn recording(path: &Path) -> RecordingRequest {
 
 /// Exploration, and images at the end.
 pub struct DemoTask {
-    explorer: Option<Explorer>,
+    explorer: Option<ExplorerNode>,
     images: Option<SnapshotRecorder>,
 }
 
@@ -70,7 +70,7 @@ impl DemoTask {
         has_images: bool,
         end_ns: Option<i64>,
     ) -> Result<Self, GraphError> {
-        let explorer = explores.then(|| Explorer::join(graph)).transpose()?;
+        let explorer = explores.then(|| ExplorerNode::join(graph)).transpose()?;
         let images = has_images.then(|| SnapshotRecorder::join(graph, end_ns)).transpose()?;
         Ok(Self { explorer, images })
     }
@@ -87,7 +87,7 @@ impl DemoTask {
 
     /// Node that explores, if it is requested.
     #[must_use]
-    pub fn explorer(&self) -> Option<&Explorer> {
+    pub fn explorer(&self) -> Option<&ExplorerNode> {
         self.explorer.as_ref()
     }
 

@@ -32,7 +32,7 @@ use periplus_web::foxglove::{Hub, Recordings, Settings};
 use periplus_web::server::TokenError;
 
 #[cfg(target_family = "wasm")]
-pub use absent::{Page, PageSettings};
+pub use absent::{NoPage as Page, NoPageSettings as PageSettings};
 #[cfg(not(target_family = "wasm"))]
 pub use server::{DEFAULT_PORT, Page, PageSettings, default_address};
 

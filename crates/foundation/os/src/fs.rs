@@ -33,7 +33,7 @@ mod system {
         path.is_dir()
     }
 
-    /// Reads bytes at a position, and leaves the position of the file as it is or not, by system.
+    /// Reads bytes at an offset, also from several threads at a time.
     ///
     /// # Errors
     /// When the file ends before, or cannot be read.
@@ -42,7 +42,7 @@ mod system {
         std::os::unix::fs::FileExt::read_exact_at(file, bytes, offset)
     }
 
-    /// Reads bytes at a position, and leaves the position of the file as it is or not, by system.
+    /// Reads bytes at an offset, also from several threads at a time.
     ///
     /// # Errors
     /// When the file ends before, or cannot be read.

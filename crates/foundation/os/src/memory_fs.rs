@@ -1,6 +1,6 @@
 //! Files in memory, with the interface of [`crate::fs`], for WebAssembly.
 //!
-//! A file stays readable for those who have it open when it is removed or replaced, as on Unix.
+//! A file that is open stays readable when it is removed or replaced, as on Unix.
 
 use std::collections::BTreeMap;
 use std::io::{self, ErrorKind, Read, Seek, SeekFrom, Write};
@@ -110,8 +110,8 @@ impl File {
     ///
     /// # Errors
     /// None.
-    pub fn metadata(&self) -> io::Result<Metadata> {
-        Ok(Metadata { bytes: Some(self.read_lock().len()) })
+    pub fn metadata(&self) -> io::Result<MemoryFileInfo> {
+        Ok(MemoryFileInfo { bytes: Some(self.read_lock().len()) })
     }
 
     /// Does nothing: memory is not a disk.
@@ -176,13 +176,13 @@ impl Seek for File {
 
 /// Kind and size of an entry.
 #[derive(Clone, Copy, Debug)]
-pub struct Metadata {
+pub struct MemoryFileInfo {
     /// Size of a file; none for a folder.
     bytes: Option<usize>,
 }
 
 #[expect(clippy::len_without_is_empty, reason = "the interface of std")]
-impl Metadata {
+impl MemoryFileInfo {
     /// True for a folder.
     #[must_use]
     pub fn is_dir(&self) -> bool {
@@ -232,15 +232,15 @@ impl DirEntry {
 ///
 /// # Errors
 /// When there is none.
-pub fn metadata(path: impl AsRef<Path>) -> io::Result<Metadata> {
+pub fn metadata(path: impl AsRef<Path>) -> io::Result<MemoryFileInfo> {
     let path = plain(path.as_ref());
     match entries().get(&path) {
         Some(Some(content)) => {
             let content = content.read().unwrap_or_else(PoisonError::into_inner);
-            Ok(Metadata { bytes: Some(content.len()) })
+            Ok(MemoryFileInfo { bytes: Some(content.len()) })
         }
-        Some(None) => Ok(Metadata { bytes: None }),
-        None if is_root(&path) => Ok(Metadata { bytes: None }),
+        Some(None) => Ok(MemoryFileInfo { bytes: None }),
+        None if is_root(&path) => Ok(MemoryFileInfo { bytes: None }),
         None => Err(missing()),
     }
 }
@@ -374,7 +374,7 @@ pub fn remove_dir_all(path: impl AsRef<Path>) -> io::Result<()> {
 #[must_use]
 pub fn temp_dir() -> PathBuf {
     let folder = PathBuf::from("/tmp");
-    // A file of this name would be reported by who creates a file in the folder.
+    // A file of this name is reported when a file is created in the folder.
     let _ = create_dir_all(&folder);
     folder
 }

@@ -18,7 +18,7 @@ pub fn processors() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
 }
 
-/// Runs work on a separate thread, which nobody joins. WebAssembly has no threads: there the work is done
+/// Runs work on a separate thread, which is not joined. WebAssembly has no threads: there the work is done
 /// when this returns, so that it must not wait for later calls.
 ///
 /// # Errors

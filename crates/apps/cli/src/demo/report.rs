@@ -3,7 +3,7 @@
 use periplus_geometry::Pose2;
 use periplus_maps::BesideTruth;
 use periplus_session::RunReport;
-use periplus_session::demo::Explorer;
+use periplus_session::demo::ExplorerNode;
 use periplus_session::nodes::MappingNode;
 use serde_json::{Value, json};
 
@@ -13,7 +13,7 @@ pub(super) fn of(
     run: &RunReport<'_>,
     mapping: &MappingNode,
     truth: Option<&BesideTruth>,
-    explorer: Option<&Explorer>,
+    explorer: Option<&ExplorerNode>,
 ) -> Value {
     let mut report = run.to_json();
     let status = mapping.node.with(|node| node.status());

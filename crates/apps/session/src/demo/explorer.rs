@@ -24,7 +24,7 @@ const MAP_PERIOD_NS: i64 = 1_000_000_000;
 const HALF_WIDTH_M: f64 = 0.24;
 
 /// Node that drives the robot to unexplored space.
-pub struct Explorer {
+pub struct ExplorerNode {
     explorer: periplus_exploration::Explorer,
     frames: Frames,
     moving: Mailbox<TFMessage>,
@@ -43,7 +43,7 @@ pub struct Explorer {
     pub driven_m: f64,
 }
 
-impl Explorer {
+impl ExplorerNode {
     pub(super) fn join(graph: &Graph) -> Result<Self, GraphError> {
         let node = graph.node(NodeSettings::new("explorer"))?;
         Ok(Self {

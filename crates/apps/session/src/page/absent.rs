@@ -5,20 +5,20 @@ use periplus_graph::Graph;
 
 /// Running page: there is none.
 #[derive(Debug)]
-pub enum Page {}
+pub enum NoPage {}
 
 /// Settings of a page: there are none.
 #[derive(Clone, Debug)]
-pub enum PageSettings {}
+pub enum NoPageSettings {}
 
-impl PageSettings {
+impl NoPageSettings {
     pub(crate) fn context(&self) -> &PageContext {
         match *self {}
     }
 }
 
-impl Page {
-    pub(crate) fn open(_: &Graph, settings: &PageSettings) -> Result<Option<Self>, PageError> {
+impl NoPage {
+    pub(crate) fn open(_: &Graph, settings: &NoPageSettings) -> Result<Option<Self>, PageError> {
         match *settings {}
     }
 }

@@ -2,10 +2,12 @@
 
 use periplus_sim::RunProgress;
 
-/// Progress bar: shows nothing.
-pub struct ProgressLine;
+pub use self::NoProgressLine as ProgressLine;
 
-impl ProgressLine {
+/// Progress bar: shows nothing.
+pub struct NoProgressLine;
+
+impl NoProgressLine {
     pub(crate) fn new(_: Option<f64>, _: bool) -> Self {
         Self
     }

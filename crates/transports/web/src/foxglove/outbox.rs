@@ -101,7 +101,7 @@ impl Outbox {
         let is_full =
             |waiting: &mut Waiting| waiting.end.is_none() && waiting.urgent_bytes > most_bytes;
         if cfg!(target_family = "wasm") {
-            // Without threads nobody takes frames during a request: its answer waits as a whole.
+            // Without threads no frames are taken during a request: its answer waits as a whole.
             let is_closed = lock(&self.waiting).end.is_some();
             return if is_closed { Room::Closed } else { Room::Free };
         }
