@@ -62,7 +62,7 @@ impl FileWriter {
                 let settings = Settings {
                     compression,
                     style: settings.style,
-                    threads: if cfg!(target_family = "wasm") { 0 } else { settings.threads.max(1) },
+                    threads: settings.threads.max(1),
                     ros_distro: settings.ros_distro.clone(),
                     ..Settings::new(name)
                 };
