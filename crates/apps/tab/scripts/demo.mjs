@@ -13,7 +13,7 @@ if (!out) {
 }
 const durationS = Number(seconds);
 const core = await Core.start(readFileSync(module));
-core.open({ demo: { explore: true, duration_s: durationS, out: "/demo" } });
+core.open({ demo: { headless: true, explore: true, duration_s: durationS, out: "/demo" } });
 const start = performance.now();
 core.stepUntil(BigInt(Math.round(durationS * 1e9)));
 const wallS = (performance.now() - start) / 1000;

@@ -20,6 +20,8 @@ pub struct DemoOptions {
     pub seed: u64,
     /// True to explore autonomously.
     pub explore: bool,
+    /// True without the page and its topics.
+    pub headless: bool,
     /// True if the caller steps in real time: maps are then computed in slices, without pauses.
     pub is_paced: bool,
     /// Duration of the run \[s\]; images are taken shortly before its end.

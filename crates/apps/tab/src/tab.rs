@@ -64,8 +64,8 @@ impl From<RunError> for TabError {
 /// A session that its caller steps, with one client.
 pub struct Tab {
     // Fields are dropped in this order: the client leaves before its hub, and the hub before the graph.
-    client: ClientSession,
-    hub: PageHub,
+    client: Option<ClientSession>,
+    hub: Option<PageHub>,
     task: DemoTask,
     session: SimulationSession,
 }
@@ -104,8 +104,9 @@ impl Tab {
         let task = DemoTask::join(session.graph(), options.explore, out.is_some(), end_ns)
             .map_err(RunError::from)?;
         let context = PageContext { world: Some(WORLD_NAME.to_owned()), ..PageContext::default() };
-        let hub = session.open_hub(&context)?;
-        let client = hub.hub.join().ok_or(TabError::NoClient)?;
+        let hub = (!options.headless).then(|| session.open_hub(&context)).transpose()?;
+        let client =
+            hub.as_ref().map(|hub| hub.hub.join().ok_or(TabError::NoClient)).transpose()?;
         Ok(Self { client, hub, task, session })
     }
 
@@ -119,7 +120,9 @@ impl Tab {
             self.session.step_until(end_ns).map_err(TabError::Diverged)?;
             self.task.spin_once(self.session.simulation().time_ns());
         }
-        self.hub.hub.spin_once();
+        if let Some(hub) = &self.hub {
+            hub.hub.spin_once();
+        }
         Ok(())
     }
 
@@ -129,20 +132,24 @@ impl Tab {
         self.session.simulation().time_ns()
     }
 
-    /// Processes a JSON message of the client.
+    /// Processes a JSON message of the client; a headless session has none.
     pub fn text(&mut self, text: &str) {
-        self.client.text(text);
+        if let Some(client) = &mut self.client {
+            client.text(text);
+        }
     }
 
-    /// Processes a binary message of the client.
+    /// Processes a binary message of the client; a headless session has none.
     pub fn binary(&mut self, bytes: &[u8]) {
-        self.client.binary(bytes);
+        if let Some(client) = &mut self.client {
+            client.binary(bytes);
+        }
     }
 
     /// Takes the next message to the client.
     #[must_use]
     pub fn take(&self) -> Option<TabFrame> {
-        match self.client.outbox().try_take() {
+        match self.client.as_ref()?.outbox().try_take() {
             OutboxItem::Frame(frame) => {
                 let bytes = frame.parts().concat();
                 Some(if frame.kind() == FrameKind::Text {
