@@ -35,6 +35,7 @@ mod sweeps;
 mod tidy;
 mod tutorials;
 mod viewer;
+mod wasm;
 mod wire;
 mod zenoh;
 
@@ -139,6 +140,16 @@ enum Task {
         /// Runs at a time
         #[arg(long, default_value_t = 1)]
         jobs: usize,
+    },
+    /// Compile for WebAssembly all crates of a browser tab, build its module, and compare its bag with that of the
+    /// native program
+    Wasm {
+        /// Only check that the crates compile
+        #[arg(long)]
+        check: bool,
+        /// Simulated seconds of the comparison
+        #[arg(long, default_value_t = 60)]
+        seconds: u32,
     },
     /// Prove that a sweep is the same on a local pool and on a Ray cluster that loses a node; takes minutes
     Sweeps {
@@ -333,6 +344,8 @@ fn perform(task: &Task) -> Result<(), Failed> {
         }
         Task::Codegen { check } => codegen::run(*check),
         Task::Drive => drive::corpus(),
+        Task::Wasm { check: true, .. } => wasm::check(),
+        Task::Wasm { seconds, .. } => wasm::all(*seconds),
         Task::Sweeps { only } => sweeps::prove(only.as_deref()),
         Task::Scenarios { repeat, only } => scenarios::suite(*repeat, only.as_deref()),
         Task::Attack { only, every, seed, program } => attack::attack(&attack::Wish {
@@ -376,6 +389,7 @@ fn ci() -> Result<(), Failed> {
     timed("tidy", || tidy::run(&tidy::Options::default()))?;
     timed("package", package::check)?;
     timed("clippy", clippy)?;
+    timed("wasm", wasm::check)?;
     timed("deny", deny)?;
     timed("docs", || docs::run(None))?;
     timed("determinism", determinism::check)?;

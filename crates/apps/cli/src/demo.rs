@@ -1,37 +1,30 @@
 //! `periplus demo`, also run by `periplus` without arguments.
 
-mod explorer;
-mod pictures;
 mod report;
-mod stage;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use clap::Args;
+use clap::{Args, ValueEnum};
+use periplus_bags::Compression;
 use periplus_geometry::Pose2;
-use periplus_graph::{Graph, GraphError};
 use periplus_maps::BesideTruth;
 use periplus_os::Stopwatch;
-use periplus_session::nodes::{
-    CostmapRequest, CostmapSource, EstimatorRequest, MappingNode, MappingRequest, MappingSource,
-};
+use periplus_session::demo::{self, DemoTask};
+use periplus_session::nodes::MappingNode;
 use periplus_session::{
-    PageContext, PageSettings, RecordingRequest, RunEnd, RunSettings, SessionBuilder, SessionTask,
+    PageContext, PageSettings, RecordingRequest, RunEnd, RunSettings, SessionBuilder,
     SimulationSession, stop,
 };
-use periplus_sim::{Options, RunProgress, Search};
+use periplus_sim::{Options, Search};
 
 use crate::error::CliError;
 use crate::page::PageOptions;
 use crate::run_options::{exit_code, positive};
 use crate::{paths, terminal};
 
-use explorer::Explorer;
-use pictures::SnapshotRecorder;
-
-pub(crate) use stage::composition;
+pub(crate) use periplus_session::demo::composition;
 
 /// Default duration of a run without a page \[s\].
 const DEFAULT_DURATION_S: f64 = 60.0;
@@ -60,6 +53,9 @@ pub(crate) struct DemoOptions {
     /// Do not open a browser
     #[arg(long)]
     no_browser: bool,
+    /// Compression of the bag
+    #[arg(long, value_enum, default_value_t, value_name = "KIND")]
+    bag_compression: BagCompression,
     /// Seed of all noise
     #[arg(long, default_value_t = 0, value_name = "NUMBER")]
     seed: u64,
@@ -85,7 +81,9 @@ pub(crate) fn run(options: &DemoOptions) -> Result<ExitCode, CliError> {
         paths::make_folder(out)?;
     }
     let mut session = options.session(out.as_deref(), start).build()?;
-    let mut task = DemoTask::new(session.graph(), options, out.is_some())?;
+    let explores = options.headless || options.explore;
+    let end_ns = options.duration().map(|seconds| (seconds * 1e9).round() as i64);
+    let mut task = DemoTask::join(session.graph(), explores, out.is_some(), end_ns)?;
     let stop = stop::on_signal();
     let settings = RunSettings { duration_s: options.duration(), stop: &stop, is_paused: false };
     session.run(settings, &mut task);
@@ -94,7 +92,7 @@ pub(crate) fn run(options: &DemoOptions) -> Result<ExitCode, CliError> {
     }
     let Some(out) = out else { return Ok(ExitCode::SUCCESS) };
     session.finish()?;
-    task.write(&mut session, &out)?;
+    write(&task, &mut session, &out)?;
     match session.end() {
         // The results of a shorter run are complete, too.
         RunEnd::Interrupted => Ok(ExitCode::SUCCESS),
@@ -107,30 +105,19 @@ impl DemoOptions {
         let simulation =
             Options { seed: self.seed, threads: terminal::processors(), ..Options::default() };
         let search = Search { working_folder: terminal::working_folder(), ..Search::default() };
-        let (program, values) = stage::mapping();
-        let estimators = EstimatorRequest {
-            costmaps: Some(CostmapRequest {
-                source: CostmapSource::Text("costmaps.yaml", stage::COSTMAPS.to_owned()),
-                cells: Vec::new(),
-                images: out.map(Path::to_owned),
-            }),
-            mapping: Some(MappingRequest {
-                source: MappingSource::Values(program, values),
-                out: out.map(Path::to_owned),
-            }),
-            ..EstimatorRequest::default()
-        };
-        SessionBuilder::new(stage::composition(), simulation, start)
-            .quiet(true)
+        let recording = out.map(|out| RecordingRequest {
+            compression: self.bag_compression.into(),
+            ..demo::recording(&out.join("demo.mcap"))
+        });
+        demo::builder(simulation, out, start)
             .factor((!self.headless).then_some(1.0))
             .search(search)
-            .recording(out.map(recording))
-            .estimators(estimators)
+            .recording(recording)
             .page((!self.headless).then(|| self.page_settings()))
     }
 
     fn page_settings(&self) -> PageSettings {
-        let world = Some(stage::WORLD_NAME.to_owned());
+        let world = Some(demo::WORLD_NAME.to_owned());
         PageSettings {
             opens_browser: !self.no_browser,
             hint: " (Ctrl-C ends the demo)",
@@ -139,59 +126,45 @@ impl DemoOptions {
     }
 }
 
-/// Records everything but images, which only a viewer subscribes to.
-fn recording(out: &Path) -> RecordingRequest {
-    let wanted = |name: &str| !name.starts_with("/depth_camera/");
-    RecordingRequest { path: out.join("demo.mcap"), wanted: Box::new(wanted) }
+/// Compression of the messages of a bag.
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+enum BagCompression {
+    /// Larger files, quickest
+    None,
+    /// As a browser tab records
+    Lz4,
+    /// Smallest files
+    #[default]
+    Zstd,
 }
 
-/// Exploration, and images at the end.
-struct DemoTask {
-    explorer: Option<Explorer>,
-    images: Option<SnapshotRecorder>,
-}
-
-impl SessionTask for DemoTask {
-    fn after_step(&mut self, progress: RunProgress) {
-        if let Some(explorer) = &mut self.explorer {
-            explorer.spin_once(progress.time_ns);
-        }
-        if let Some(images) = &mut self.images {
-            images.look(progress.time_ns);
+impl From<BagCompression> for Compression {
+    fn from(compression: BagCompression) -> Self {
+        match compression {
+            BagCompression::None => Self::None,
+            BagCompression::Lz4 => Self::Lz4,
+            BagCompression::Zstd => Self::Zstd,
         }
     }
 }
 
-impl DemoTask {
-    fn new(graph: &Graph, options: &DemoOptions, has_images: bool) -> Result<Self, GraphError> {
-        let explores = options.headless || options.explore;
-        let explorer = explores.then(|| Explorer::join(graph)).transpose()?;
-        let end_ns = options.duration().map(|seconds| (seconds * 1e9).round() as i64);
-        let images = has_images.then(|| SnapshotRecorder::join(graph, end_ns)).transpose()?;
-        Ok(Self { explorer, images })
-    }
-
-    /// Writes all results and prints the report.
-    fn write(&self, session: &mut SimulationSession, out: &Path) -> Result<(), CliError> {
-        let map = session
-            .estimators()
-            .mapping
-            .as_ref()
-            .and_then(|mapping| mapping.node.with(|node| node.map()));
-        let truth =
-            map.and_then(|map| session.simulation_mut().beside_truth(&map, Pose2::IDENTITY));
-        let estimators = session.estimators();
-        let Some(mapping) = &estimators.mapping else { return Ok(()) };
-        let report = report::of(&session.report(), mapping, truth.as_ref(), self.explorer.as_ref());
-        mapping.write_results()?;
-        estimators.costmaps.write_images()?;
-        if let Some(images) = &self.images {
-            images.write(out)?;
-        }
-        let text = format!("{report:#}\n");
-        paths::write(&out.join("report.json"), text.as_bytes())?;
-        print_report(session, mapping, truth.as_ref(), out)
-    }
+/// Writes all results and prints the report.
+fn write(task: &DemoTask, session: &mut SimulationSession, out: &Path) -> Result<(), CliError> {
+    let map = session
+        .estimators()
+        .mapping
+        .as_ref()
+        .and_then(|mapping| mapping.node.with(|node| node.map()));
+    let truth = map.and_then(|map| session.simulation_mut().beside_truth(&map, Pose2::IDENTITY));
+    let estimators = session.estimators();
+    let Some(mapping) = &estimators.mapping else { return Ok(()) };
+    let report = report::of(&session.report(), mapping, truth.as_ref(), task.explorer());
+    mapping.write_results()?;
+    estimators.costmaps.write_images()?;
+    task.write_images(out)?;
+    let text = format!("{report:#}\n");
+    paths::write(&out.join("report.json"), text.as_bytes())?;
+    print_report(session, mapping, truth.as_ref(), out)
 }
 
 fn print_report(

@@ -29,7 +29,6 @@ mod options;
 mod own_command;
 mod page;
 mod paths;
-mod pictures;
 mod program;
 mod recorded_command;
 mod report;

@@ -40,7 +40,7 @@ impl TopicSelection {
             topics.as_ref().is_none_or(|topics| topics.is_match(name))
                 && !exclude.as_ref().is_some_and(|exclude| exclude.is_match(name))
         });
-        Some(RecordingRequest { path, wanted })
+        Some(RecordingRequest::new(path, wanted))
     }
 }
 

@@ -421,7 +421,7 @@ fn recording(path: PathBuf) -> PyResult<RecordingRequest> {
     if !is_file && path.exists() {
         return Err(PyFileExistsError::new_err(format!("{}: the folder exists", path.display())));
     }
-    Ok(RecordingRequest { path, wanted: Box::new(|_| true) })
+    Ok(RecordingRequest::new(path, |_| true))
 }
 
 fn valid_step(step_s: f64) -> PyResult<f64> {

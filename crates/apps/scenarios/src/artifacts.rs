@@ -43,7 +43,7 @@ impl Artifacts {
             .map(|topic| topic.name)
             .collect();
         let wanted = Box::new(move |name: &str| heavy.iter().all(|heavy| heavy != name));
-        session.start_recording(RecordingRequest { path: self.folder.join(BAG_FILE), wanted })?;
+        session.start_recording(RecordingRequest::new(self.folder.join(BAG_FILE), wanted))?;
         Ok(())
     }
 

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use periplus_bags::Compression;
 use periplus_nav_nodes::slam_toolbox::Pace;
 use periplus_os::Stopwatch;
 use periplus_sim::{
@@ -25,6 +26,30 @@ pub struct RecordingRequest {
     pub path: PathBuf,
     /// Topics to record.
     pub wanted: TopicFilter,
+    /// Compression of the messages.
+    pub compression: Compression,
+}
+
+impl RecordingRequest {
+    /// Recording with the default compression.
+    #[must_use]
+    pub fn new(
+        path: impl Into<PathBuf>,
+        wanted: impl Fn(&str) -> bool + Send + Sync + 'static,
+    ) -> Self {
+        Self { path: path.into(), wanted: Box::new(wanted), compression: Compression::default() }
+    }
+
+    /// Starts to record a simulation.
+    pub(crate) fn start(
+        self,
+        simulation: &Simulation,
+        description: BTreeMap<String, String>,
+    ) -> Result<SimulationRecorder, RunError> {
+        let Self { path, wanted, compression } = self;
+        SimulationRecorder::start_with(simulation, &path, compression, wanted, description)
+            .map_err(|error| RunError::Recording { path, error })
+    }
 }
 
 /// Parts of a session. Everything but the world is optional.
@@ -272,8 +297,8 @@ impl SessionBuilder {
         services: &mut Services,
     ) -> Result<Option<Page>, RunError> {
         let Some(settings) = &self.page else { return Ok(None) };
-        services.show(simulation, settings.context.folders()).map_err(RunError::Display)?;
-        if let Some(file) = &settings.context.world_out {
+        services.show(simulation, settings.context().folders()).map_err(RunError::Display)?;
+        if let Some(file) = &settings.context().world_out {
             services.write_world_to(simulation, file.clone()).map_err(RunError::Display)?;
         }
         Ok(Page::open(simulation.graph(), settings)?)
@@ -286,9 +311,7 @@ fn record(
     records_truth: bool,
     description: BTreeMap<String, String>,
 ) -> Result<SimulationRecorder, RunError> {
-    let RecordingRequest { path, wanted } = request;
-    let recorder = SimulationRecorder::start(simulation, &path, wanted, description)
-        .map_err(|error| RunError::Recording { path, error })?;
+    let recorder = request.start(simulation, description)?;
     if records_truth {
         recorder.with_truth(simulation).map_err(RunError::Services)
     } else {

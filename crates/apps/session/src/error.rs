@@ -5,13 +5,12 @@ use std::fmt::{self, Display};
 use std::io;
 use std::path::PathBuf;
 
-use periplus_dds::DdsError;
 use periplus_diagnostics::plain_words;
 use periplus_graph::GraphError;
-use periplus_gz_transport::GzTransportError;
 use periplus_sim::{Diverged, DriveError, RecordError};
 
 use crate::files::FileError;
+use crate::network::{DdsError, GzTransportError};
 use crate::page::PageError;
 
 /// Reasons that a session or one of its parts cannot start.

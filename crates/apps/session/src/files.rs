@@ -82,7 +82,7 @@ pub fn text(path: &Path) -> Result<String, FileError> {
 /// # Errors
 /// The path and the reason.
 pub fn make_folder(path: &Path) -> Result<(), FileError> {
-    std::fs::create_dir_all(path)
+    periplus_os::fs::create_dir_all(path)
         .map_err(|error| FileError::new("create the folder", path, plain_words(&error)))
 }
 

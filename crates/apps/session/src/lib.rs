@@ -6,15 +6,26 @@
 //! simulation on ROS 2. Progress and findings are printed to stderr.
 
 mod builder;
+pub mod demo;
 mod description;
 pub mod difference;
 mod error;
 pub mod files;
+#[cfg(not(target_family = "wasm"))]
 mod live;
+#[cfg(not(target_family = "wasm"))]
+mod network;
+#[cfg(target_family = "wasm")]
+#[path = "network/absent.rs"]
 mod network;
 pub mod nodes;
 pub mod page;
 pub mod picture;
+pub mod pictures;
+#[cfg(not(target_family = "wasm"))]
+mod progress;
+#[cfg(target_family = "wasm")]
+#[path = "progress/absent.rs"]
 mod progress;
 pub mod recorded;
 mod recording;
@@ -22,14 +33,17 @@ mod report;
 pub mod rerun;
 mod session;
 mod steps;
+#[cfg(not(target_family = "wasm"))]
 pub mod stop;
 pub mod terminal;
 
 pub use builder::{RecordingRequest, SessionBuilder};
 pub use error::RunError;
+#[cfg(not(target_family = "wasm"))]
 pub use live::{LiveGraph, NodeMonitor, PollSleep};
 pub use network::{GazeboSettings, Ros2Reach};
-pub use page::{Page, PageContext, PageError, PageSettings};
+pub use page::{Page, PageContext, PageError, PageHub, PageSettings};
+#[cfg(not(target_family = "wasm"))]
 pub use periplus_gz_transport::DiscoveryReach as GazeboReach;
 pub use progress::ProgressLine;
 pub use report::RunReport;

@@ -3,6 +3,9 @@
 mod gazebo;
 mod ros2;
 
+pub(crate) use periplus_dds::DdsError;
+pub(crate) use periplus_gz_transport::GzTransportError;
+
 pub(crate) use gazebo::GazeboConnection;
 pub use gazebo::GazeboSettings;
 pub(crate) use ros2::Ros2Connection;

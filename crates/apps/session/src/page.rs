@@ -1,38 +1,43 @@
 //! Web page of a session or a network.
 
+#[cfg(target_family = "wasm")]
+mod absent;
 mod assets;
+#[cfg(not(target_family = "wasm"))]
 pub mod browser;
 mod recordings;
+#[cfg(not(target_family = "wasm"))]
 mod remote_topics;
+#[cfg(not(target_family = "wasm"))]
+mod server;
 
 use std::collections::BTreeMap;
 use std::error::Error;
 use std::fmt;
+#[cfg(not(target_family = "wasm"))]
 use std::io;
+#[cfg(not(target_family = "wasm"))]
 use std::net::SocketAddr;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use periplus_dds::Remote;
+#[cfg(not(target_family = "wasm"))]
 use periplus_diagnostics::plain_words;
 use periplus_graph::{Graph, GraphError};
 use periplus_os::{Machine, unix_ns};
 use periplus_resources::Host as _;
 use periplus_sim::Composition;
 use periplus_web::foxglove::{Hub, Recordings, Settings};
-use periplus_web::server::{TokenError, WebServer, WebServerSettings, token};
+#[cfg(not(target_family = "wasm"))]
+use periplus_web::server::TokenError;
+
+#[cfg(target_family = "wasm")]
+pub use absent::{NoPage as Page, NoPageSettings as PageSettings};
+#[cfg(not(target_family = "wasm"))]
+pub use server::{DEFAULT_PORT, Page, PageSettings, default_address};
 
 use crate::rerun::ReportWriter;
 use crate::terminal;
-
-/// Default port of Foxglove programs.
-pub const DEFAULT_PORT: u16 = 8765;
-
-/// Default address: this machine only.
-#[must_use]
-pub fn default_address() -> SocketAddr {
-    SocketAddr::from(([127, 0, 0, 1], DEFAULT_PORT))
-}
 
 /// Contents that a page shows besides the topics.
 #[derive(Clone, Debug, Default)]
@@ -75,49 +80,16 @@ impl PageContext {
     }
 }
 
-/// Settings of a page.
-#[derive(Clone, Debug)]
-pub struct PageSettings {
-    /// Address and port of the page.
-    pub address: SocketAddr,
-    /// Token that admits other machines; by default a new one if they reach the address.
-    pub token: Option<String>,
-    /// Contents besides the topics.
-    pub context: PageContext,
-    /// True if a page that cannot be opened is an error; otherwise it is a warning.
-    pub is_required: bool,
-    /// True to open a browser.
-    pub opens_browser: bool,
-    /// True to print neither the URL nor a missing browser.
-    pub is_quiet: bool,
-    /// Text printed after the URL.
-    pub hint: &'static str,
-}
-
-impl PageSettings {
-    /// Required page at an address, without a browser.
-    #[must_use]
-    pub fn at(address: SocketAddr, token: Option<String>, context: PageContext) -> Self {
-        Self {
-            address,
-            token,
-            context,
-            is_required: true,
-            opens_browser: false,
-            is_quiet: false,
-            hint: "",
-        }
-    }
-}
-
 /// Reasons that a page cannot be opened.
 #[derive(Debug)]
 pub enum PageError {
     /// No token can be generated.
+    #[cfg(not(target_family = "wasm"))]
     Token(TokenError),
     /// The graph refused the node of the page.
     Graph(GraphError),
     /// The address cannot be used.
+    #[cfg(not(target_family = "wasm"))]
     Address(SocketAddr, io::Error),
     /// A recording cannot be opened, with the reason.
     Recording(String),
@@ -126,12 +98,14 @@ pub enum PageError {
 impl fmt::Display for PageError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            #[cfg(not(target_family = "wasm"))]
             Self::Token(error) => error.fmt(f),
             Self::Graph(error) => error.fmt(f),
             Self::Recording(why) => f.write_str(why),
+            #[cfg(not(target_family = "wasm"))]
             Self::Address(address, error) => {
                 write!(f, "no page at {address}: {}", plain_words(error))?;
-                if is_taken(error) {
+                if server::is_taken(error) {
                     f.write_str(
                         "; choose another port, such as --page=8766, or 0 for any free port",
                     )?;
@@ -144,102 +118,35 @@ impl fmt::Display for PageError {
 
 impl Error for PageError {}
 
-fn is_taken(error: &io::Error) -> bool {
-    error.kind() == io::ErrorKind::AddrInUse
+/// A graph in the protocol of the page, without a port.
+#[derive(Clone, Debug)]
+pub struct PageHub {
+    /// Connection of the graph to all clients.
+    pub hub: Arc<Hub>,
+    /// Recordings of the page.
+    pub recordings: Arc<Recordings>,
 }
 
-/// Running page.
-#[derive(Debug)]
-pub struct Page {
-    // Declared first, so that no client connects while the rest is dropped.
-    server: WebServer,
-    hub: Arc<Hub>,
-    recordings: Arc<Recordings>,
-}
-
-impl Page {
-    /// Opens the page on a graph, prints its URL, and opens a browser if requested. `None` if a
-    /// page that is not required cannot be opened.
+impl PageHub {
+    /// Connects a graph, with the contents that the page shows.
     ///
     /// # Errors
-    /// When a required page cannot be opened.
-    pub fn open(graph: &Graph, settings: &PageSettings) -> Result<Option<Self>, PageError> {
-        let page = match Self::serve(graph, settings) {
-            Ok(page) => page,
-            Err(error) if settings.is_required => return Err(error),
-            Err(error) => {
-                terminal::warn(&format!("{error}; running without"));
-                return Ok(None);
-            }
-        };
-        let url = page.url();
-        if !settings.is_quiet {
-            terminal::say(&format!("page: {url}{}", settings.hint));
-            if let Some(view) = &settings.context.view {
-                terminal::say(&format!("it shows {}", view.display()));
-            }
-        }
-        if settings.opens_browser && !browser::open(&url) && !settings.is_quiet {
-            terminal::say("no browser could be started; open the page yourself");
-        }
-        Ok(Some(page))
-    }
-
-    /// Opens the page on a graph, and prints nothing.
-    ///
-    /// # Errors
-    /// When it cannot be opened.
-    pub fn serve(graph: &Graph, settings: &PageSettings) -> Result<Self, PageError> {
-        let (address, context) = (settings.address, &settings.context);
+    /// When the graph refuses the node of the page, or a recording cannot be opened.
+    pub fn open(graph: &Graph, context: &PageContext) -> Result<Self, PageError> {
         let version = env!("CARGO_PKG_VERSION");
-        let hub_settings = Settings {
+        let settings = Settings {
             name: format!("periplus {version}"),
             session_id: format!("{:x}", unix_ns()),
             metadata: metadata(context),
             ..Settings::default()
         };
-        let token = match settings.token.clone() {
-            None if !address.ip().is_loopback() => Some(token().map_err(PageError::Token)?),
-            given => given,
-        };
-        let hub = Hub::open(graph, hub_settings).map_err(PageError::Graph)?;
+        let hub = Hub::open(graph, settings).map_err(PageError::Graph)?;
         let around: Vec<PathBuf> =
             context.files.iter().chain(&context.recordings).cloned().collect();
         hub.serve_assets(assets::fetch(&around, &context.resource_path));
         let recordings = recordings::open(context).map_err(PageError::Recording)?;
         hub.serve_recordings(recordings.clone());
-        let hub = Arc::new(hub);
-        let open =
-            |address, token| WebServer::open(hub.clone(), WebServerSettings { address, token });
-        let server = match open(address, token.clone()) {
-            // Another run has the default port: any other will do unless one was requested.
-            Err(error) if is_taken(&error) && address.port() == DEFAULT_PORT => {
-                terminal::say(&format!(
-                    "port {DEFAULT_PORT} is in use; the page uses another port"
-                ));
-                open(SocketAddr::new(address.ip(), 0), token)
-            }
-            opened => opened,
-        };
-        let server = server.map_err(|error| PageError::Address(address, error))?;
-        Ok(Self { server, hub, recordings })
-    }
-
-    /// Updates the topics of remote nodes.
-    pub fn set_remote(&self, remote: &Remote) {
-        self.hub.set_network_endpoints(remote_topics::remote_topics(remote));
-    }
-
-    /// Recordings of the page.
-    #[must_use]
-    pub fn recordings(&self) -> &Arc<Recordings> {
-        &self.recordings
-    }
-
-    /// URL of the page.
-    #[must_use]
-    pub fn url(&self) -> String {
-        self.server.url()
+        Ok(Self { hub: Arc::new(hub), recordings })
     }
 }
 

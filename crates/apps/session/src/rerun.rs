@@ -143,5 +143,5 @@ fn facts(request: &RerunRequest) -> BTreeMap<String, String> {
 /// Removes the file of a run that did not end.
 fn remove(out: &Path) {
     // Without a file there is nothing to remove.
-    let _ = std::fs::remove_file(out);
+    let _ = periplus_os::fs::remove_file(out);
 }

@@ -179,7 +179,9 @@ impl SimulationSession {
         self.start_up = parts.start.elapsed();
         let line = ProgressLine::new(settings.duration_s, !parts.has_progress);
         let (line, task) = (RefCell::new(line), RefCell::new(task));
-        let (page, recorder, ros2) = (&parts.page, &parts.recorder, &mut parts.ros2);
+        #[cfg(not(target_family = "wasm"))]
+        let page = &parts.page;
+        let (recorder, ros2) = (&parts.recorder, &mut parts.ros2);
         let mut watch = RecordingWatch::default();
         let stopwatch = Stopwatch::start();
         let outcome = run.go_with(
@@ -194,6 +196,7 @@ impl SimulationSession {
                 watch.check(recorder.as_ref(), progress, &line);
                 if ros2.is_due(progress.wall) {
                     line.aside(|| ros2.print_findings());
+                    #[cfg(not(target_family = "wasm"))]
                     if let (Some(page), Some(remote)) = (page, ros2.remote()) {
                         page.set_remote(&remote);
                     }

@@ -9,7 +9,9 @@ use periplus_sim::{
 
 use crate::builder::RecordingRequest;
 use crate::error::RunError;
+#[cfg(not(target_family = "wasm"))]
 use crate::page::{Page, PageSettings};
+use crate::page::{PageContext, PageHub};
 use crate::session::SimulationSession;
 
 impl SimulationSession {
@@ -54,12 +56,10 @@ impl SimulationSession {
     /// # Errors
     /// When a recording cannot be closed, or the new one cannot be created.
     pub fn start_recording(&mut self, request: RecordingRequest) -> Result<(), RunError> {
-        let RecordingRequest { path, wanted } = request;
-        let failed = |error| RunError::Recording { path: path.clone(), error };
+        let failed = |error| RunError::Recording { path: request.path.clone(), error };
         self.stop_recording().map_err(failed)?;
         let description = self.parts.description.clone();
-        let started = SimulationRecorder::start(&self.parts.simulation, &path, wanted, description);
-        self.parts.recorder = Some(started.map_err(failed)?);
+        self.parts.recorder = Some(request.start(&self.parts.simulation, description)?);
         Ok(())
     }
 
@@ -78,26 +78,40 @@ impl SimulationSession {
         self.parts.recorder.as_ref().and_then(SimulationRecorder::failure)
     }
 
-    /// Serves the page, and returns its URL. A page that is open stays.
+    /// Connects the graph and the services of the page, without a port.
     ///
     /// # Errors
     /// When the page or its displays cannot start.
-    pub fn open_page(&mut self, settings: &PageSettings) -> Result<String, RunError> {
+    pub fn open_hub(&mut self, context: &PageContext) -> Result<PageHub, RunError> {
+        self.show(context)?;
+        Ok(PageHub::open(self.parts.simulation.graph(), context)?)
+    }
+
+    fn show(&mut self, context: &PageContext) -> Result<(), RunError> {
         let parts = &mut self.parts;
-        if let Some(page) = &parts.page {
-            return Ok(page.url());
-        }
-        let folders = settings.context.folders();
-        parts.services.show(&parts.simulation, folders).map_err(RunError::Display)?;
-        if let Some(file) = &settings.context.world_out {
+        parts.services.show(&parts.simulation, context.folders()).map_err(RunError::Display)?;
+        if let Some(file) = &context.world_out {
             parts
                 .services
                 .write_world_to(&parts.simulation, file.clone())
                 .map_err(RunError::Display)?;
         }
-        let page = Page::serve(parts.simulation.graph(), settings)?;
+        Ok(())
+    }
+
+    /// Serves the page, and returns its URL. A page that is open stays.
+    ///
+    /// # Errors
+    /// When the page or its displays cannot start.
+    #[cfg(not(target_family = "wasm"))]
+    pub fn open_page(&mut self, settings: &PageSettings) -> Result<String, RunError> {
+        if let Some(page) = &self.parts.page {
+            return Ok(page.url());
+        }
+        self.show(&settings.context)?;
+        let page = Page::serve(self.parts.simulation.graph(), settings)?;
         let url = page.url();
-        parts.page = Some(page);
+        self.parts.page = Some(page);
         Ok(url)
     }
 

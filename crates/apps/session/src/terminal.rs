@@ -91,5 +91,5 @@ pub fn search(resource_path: &[PathBuf]) -> Search {
 /// Number of threads that can run in parallel.
 #[must_use]
 pub fn processors() -> usize {
-    std::thread::available_parallelism().map_or(1, usize::from)
+    periplus_os::processors()
 }

@@ -30,7 +30,7 @@ pub(crate) struct Beam {
 pub(crate) fn normal(beams: &[Beam], at: usize, origin: [f32; 2], step_rad: f32) -> [f32; 2] {
     let here = beams[at];
     let is_joined = |a: Beam, b: Beam| {
-        let range = (b.x - origin[0]).hypot(b.y - origin[1]);
+        let range = libm::hypotf(b.x - origin[0], b.y - origin[1]);
         let gap = (GLANCING_FACTOR * range * step_rad).clamp(MIN_GAP_M, MAX_GAP_M);
         a.index.abs_diff(b.index) <= 2 && square(a.x - b.x) + square(a.y - b.y) < square(gap)
     };

@@ -423,7 +423,8 @@ fn drawn_ends(ends: &Ends, settings: &Settings) -> Option<PackedPlaces> {
     let every = count.div_ceil(settings.drawn_beams.max(1)).max(1);
     let mut drawn: Vec<[f32; 2]> = Vec::new();
     for end in ends.ends.iter().flatten().step_by(every) {
-        let is_near = |last: &[f32; 2]| (end[0] - last[0]).hypot(end[1] - last[1]) < spacing_m;
+        let is_near =
+            |last: &[f32; 2]| libm::hypotf(end[0] - last[0], end[1] - last[1]) < spacing_m;
         if !drawn.last().is_some_and(is_near) {
             drawn.push(*end);
         }

@@ -275,7 +275,7 @@ pub(crate) fn reweighted(
         .clamp(MIN_WEIGHT_RATIO, 1.0);
     let smooth = settings.register.sigma_m / located.fit.rms_m.max(settings.register.sigma_m);
     let rough = if distance < POSSIBLE_STEP_SQUARED_SIGMAS { smooth * smooth } else { 1.0 };
-    let trusted = part.powi(4) * rough;
+    let trusted = (part * part) * (part * part) * rough;
     if trusted > UNCHANGED_WEIGHT_RATIO {
         return located;
     }

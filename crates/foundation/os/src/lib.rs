@@ -17,9 +17,13 @@
 //! ```
 
 mod file_log;
+pub mod fs;
 mod machine;
 mod memory;
+#[cfg(any(test, target_family = "wasm"))]
+mod memory_fs;
 mod overlay;
+mod process;
 mod shell;
 mod stopwatch;
 
@@ -27,5 +31,8 @@ pub use file_log::{FileLog, plain};
 pub use machine::Machine;
 pub use memory::peak_memory_bytes;
 pub use overlay::Overlay;
+pub use process::{process_id, processors, start_thread};
 pub use shell::shell_word;
+#[cfg(target_family = "wasm")]
+pub use stopwatch::set_clock;
 pub use stopwatch::{Stopwatch, sleep, unix_ns};

@@ -4,14 +4,13 @@
     reason = "the edge through which all other code reads the clock"
 )]
 
-use std::fs;
 use std::io::{BufRead, BufReader, BufWriter, ErrorKind, Read as _, Write as _};
 use std::path::{Path, PathBuf};
 
 use periplus_diagnostics::plain_words;
 use periplus_resources::{EntryKind, FileReadError, FileWriteError, Host, MAX_FILE_BYTES, Store};
 
-use crate::file_log;
+use crate::{file_log, fs};
 
 /// Machine on which this program runs.
 #[derive(Clone, Copy, Debug, Default)]
@@ -102,7 +101,7 @@ impl Machine {
     ) -> Result<(), FileWriteError> {
         let words = |error: std::io::Error| FileWriteError::Other(plain_words(&error));
         let mut name = path.file_name().ok_or(FileWriteError::NoFileName)?.to_owned();
-        name.push(format!(".{}.part", std::process::id()));
+        name.push(format!(".{}.part", crate::process_id()));
         let beside = path.with_file_name(name);
         remove_stale(path);
         let written = write_new(&beside, write).and_then(|()| fs::rename(&beside, path));
@@ -135,14 +134,14 @@ fn remove_stale(path: &Path) {
         _ => Path::new("."),
     };
     // Without /proc the running processes are not known.
-    if !Path::new("/proc/self").exists() {
+    if !fs::exists(Path::new("/proc/self")) {
         return;
     }
     for entry in Machine.list(folder) {
         let rest = entry.strip_prefix(name).and_then(|rest| rest.strip_prefix('.'));
         let Some(process) = rest.and_then(|rest| rest.strip_suffix(".part")) else { continue };
         let is_number = !process.is_empty() && process.bytes().all(|byte| byte.is_ascii_digit());
-        if !is_number || Path::new("/proc").join(process).exists() {
+        if !is_number || fs::exists(&Path::new("/proc").join(process)) {
             continue;
         }
         let part = folder.join(&entry);
@@ -226,7 +225,7 @@ mod tests {
 
     #[test]
     fn parts_of_killed_writers_are_removed() {
-        if !Path::new("/proc/self").exists() {
+        if !fs::exists(Path::new("/proc/self")) {
             println!("SKIPPED: there is no /proc here");
             return;
         }

@@ -4,15 +4,18 @@ use std::io::{self, Read, Write as _};
 
 use lz4_flex::frame::{BlockSize, FrameDecoder, FrameEncoder, FrameInfo};
 
+use crate::zstandard;
+
 /// Compression of chunks.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Compression {
     /// No compression.
     None,
-    /// LZ4 frames.
+    /// LZ4 frames; the default in WebAssembly.
+    #[cfg_attr(target_family = "wasm", default)]
     Lz4,
-    /// Zstandard at level 1.
-    #[default]
+    /// Zstandard at level 1. In WebAssembly it is read, but not written.
+    #[cfg_attr(not(target_family = "wasm"), default)]
     Zstd,
 }
 
@@ -40,13 +43,13 @@ impl Compression {
 /// Compresses chunks one after the other. The same chunks give the same bytes.
 pub(crate) struct Packer {
     compression: Compression,
-    zstd: Option<zstd::bulk::Compressor<'static>>,
+    zstd: Option<zstandard::Compressor>,
 }
 
 impl Packer {
     pub(crate) fn new(compression: Compression) -> io::Result<Self> {
         let zstd = match compression {
-            Compression::Zstd => Some(zstd::bulk::Compressor::new(ZSTD_LEVEL)?),
+            Compression::Zstd => Some(zstandard::Compressor::new(ZSTD_LEVEL)?),
             _ => None,
         };
         Ok(Self { compression, zstd })
@@ -61,10 +64,7 @@ impl Packer {
         let packed = packed.get_or_insert_default();
         packed.clear();
         match &mut self.zstd {
-            Some(zstd) => {
-                packed.reserve(zstd::zstd_safe::compress_bound(bytes.len()));
-                zstd.compress_to_buffer(bytes, packed)?;
-            }
+            Some(zstd) => zstd.compress(bytes, packed)?,
             None => {
                 let blocks = FrameInfo::new()
                     .block_size(BlockSize::Max4MB)
@@ -108,7 +108,7 @@ fn unpack_zstd(packed: &[u8], length: u64) -> Option<Vec<u8>> {
     let most = usize::try_from(length).ok().filter(|_| length <= MAX_ONE_STEP_BYTES)?;
     let mut bytes = Vec::new();
     bytes.try_reserve_exact(most).ok()?;
-    zstd::bulk::Decompressor::new().ok()?.decompress_to_buffer(packed, &mut bytes).ok()?;
+    zstandard::decompress_within(packed, &mut bytes)?;
     (bytes.len() == most).then_some(bytes)
 }
 
@@ -123,8 +123,9 @@ pub(crate) fn unpack_some(
     let outcome = match compression {
         Compression::None => read(packed, length, &mut bytes),
         Compression::Lz4 => read(FrameDecoder::new(packed), length, &mut bytes),
-        Compression::Zstd => zstd::stream::read::Decoder::with_buffer(packed)
-            .and_then(|decoder| read(decoder, length, &mut bytes)),
+        Compression::Zstd => {
+            zstandard::decoder_of(packed).and_then(|decoder| read(decoder, length, &mut bytes))
+        }
     };
     (bytes, outcome)
 }

@@ -36,6 +36,7 @@ mod repair;
 mod ros1;
 mod translate;
 mod write;
+mod zstandard;
 
 pub use carmen::{
     CarmenLog, CarmenOdometry, CarmenScan, CarmenScanKind, is_carmen, read_carmen, read_carmen_from,

@@ -113,7 +113,7 @@ fn has_avx2() -> bool {
         && is_x86_feature_detected!("popcnt")
 }
 
-#[cfg(not(test))]
+#[cfg(all(not(test), target_arch = "x86_64"))]
 #[inline(always)]
 fn force_portable() -> bool {
     false

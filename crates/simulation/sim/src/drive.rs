@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 use std::fmt;
-use std::fs::File;
 use std::path::Path;
 
 use crate::script::{CommandMessage, DriveScript, GoalController};
@@ -13,6 +12,7 @@ use periplus_msgs::Message as _;
 use periplus_msgs::builtin_interfaces::Time;
 use periplus_msgs::geometry_msgs::{Twist, TwistStamped};
 use periplus_os::Machine;
+use periplus_os::fs::File;
 use periplus_resources::Host as _;
 
 use crate::Simulation;

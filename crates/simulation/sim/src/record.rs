@@ -2,14 +2,13 @@
 
 use std::collections::BTreeMap;
 use std::fmt;
-use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use periplus_bags::{
-    BagInfo, QosProfile, Settings, Stamp, Style, Topic, TopicId, WriteError, Writer,
+    BagInfo, Compression, QosProfile, Settings, Stamp, Style, Topic, TopicId, WriteError, Writer,
 };
 use periplus_diagnostics::plain_words;
 use periplus_graph::{
@@ -19,6 +18,7 @@ use periplus_graph::{
 use periplus_msgs::TypeRegistry;
 use periplus_msgs::gazebo_msgs::ModelStates;
 use periplus_os::Stopwatch;
+use periplus_os::fs::{self, File};
 
 use crate::Simulation;
 use crate::profile::Work;
@@ -112,12 +112,26 @@ impl SimulationRecorder {
         wanted: TopicFilter,
         custom_data: BTreeMap<String, String>,
     ) -> Result<Self, RecordError> {
+        Self::start_with(simulation, path, Compression::default(), wanted, custom_data)
+    }
+
+    /// As [`Self::start`], with a compression.
+    ///
+    /// # Errors
+    /// As for [`Self::start`], and when this build cannot compress in this way.
+    pub fn start_with(
+        simulation: &Simulation,
+        path: &Path,
+        compression: Compression,
+        wanted: TopicFilter,
+        custom_data: BTreeMap<String, String>,
+    ) -> Result<Self, RecordError> {
         let is_file = path.extension().is_some_and(|extension| extension == "mcap");
         let folder = (!is_file).then(|| path.to_owned());
         let file = match &folder {
             None => path.to_owned(),
             Some(folder) => {
-                if folder.exists() {
+                if fs::exists(folder) {
                     return Err(RecordError::Exists(folder.clone()));
                 }
                 fs::create_dir_all(folder)
@@ -128,7 +142,8 @@ impl SimulationRecorder {
         };
         let name = file.file_name().map(|name| name.to_string_lossy().into_owned());
         let sink = File::create(&file).map_err(|error| RecordError::File(file.clone(), error))?;
-        let settings = Settings { custom_data, ..Settings::new(name.unwrap_or_default()) };
+        let settings =
+            Settings { compression, custom_data, ..Settings::new(name.unwrap_or_default()) };
         let writer = Writer::new(sink, settings).map_err(RecordError::Write)?;
         let state = State {
             writer: Some(writer),

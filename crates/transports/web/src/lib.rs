@@ -18,4 +18,5 @@
 //! ```
 
 pub mod foxglove;
+#[cfg(not(target_family = "wasm"))]
 pub mod server;

@@ -3,10 +3,9 @@
 use periplus_geometry::Pose2;
 use periplus_maps::BesideTruth;
 use periplus_session::RunReport;
+use periplus_session::demo::ExplorerNode;
 use periplus_session::nodes::MappingNode;
 use serde_json::{Value, json};
-
-use super::explorer::Explorer;
 
 /// Report of the run with map quality and pose error. The robot starts at the origin of the world,
 /// which is also the origin of the map, so that estimate and ground truth can be compared.
@@ -14,7 +13,7 @@ pub(super) fn of(
     run: &RunReport<'_>,
     mapping: &MappingNode,
     truth: Option<&BesideTruth>,
-    explorer: Option<&Explorer>,
+    explorer: Option<&ExplorerNode>,
 ) -> Value {
     let mut report = run.to_json();
     let status = mapping.node.with(|node| node.status());

@@ -3,11 +3,11 @@
 use periplus_graph::{Mailbox, NodeSettings, Qos};
 use periplus_msgs::Message;
 use periplus_msgs::sensor_msgs::{Image, LaserScan};
+use periplus_session::pictures;
 use periplus_sim::Simulation;
 
 use super::run_until;
 use crate::error::CliError;
-use crate::pictures;
 
 /// Simulated time to wait for a message \[s\].
 const PATIENCE_S: f64 = 10.0;

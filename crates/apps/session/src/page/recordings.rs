@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use periplus_os::fs;
 use periplus_web::foxglove::{RecordingSettings, Recordings};
 
 use super::PageContext;
@@ -15,7 +16,7 @@ pub(super) fn open(context: &PageContext) -> Result<Arc<Recordings>, String> {
     let here = terminal::working_folder();
     let settings = RecordingSettings {
         custom_data: description::with_version(context.description.clone()),
-        ..RecordingSettings::new(here, std::env::temp_dir())
+        ..RecordingSettings::new(here, fs::temp_dir())
     };
     let recordings = Recordings::new(settings);
     recordings.set_jobs(Arc::new(RerunJobs::new(context.report)));

@@ -24,7 +24,8 @@ pub(super) fn scale(keyframes: &[Keyframe], last: usize) -> f64 {
 fn range_m(keyframe: &Keyframe) -> Option<f32> {
     let cloud = keyframe.cloud();
     let [x, y] = cloud.origin();
-    nth(cloud.points().iter().map(|p| (p.x - x).hypot(p.y - y)).collect(), RANGE_QUANTILE_RATIO)
+    let ranges = cloud.points().iter().map(|p| libm::hypotf(p.x - x, p.y - y));
+    nth(ranges.collect(), RANGE_QUANTILE_RATIO)
 }
 
 fn nth(mut values: Vec<f32>, part: f64) -> Option<f32> {

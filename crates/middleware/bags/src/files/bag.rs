@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use crate::{BagTopic, Metadata, Selection, Style, read_metadata};
 use periplus_diagnostics::{Diagnostic, Diagnostics, SourceMap};
+use periplus_os::fs;
 
 use crate::files::BagError;
 use crate::files::indexed::{OpenProgress, convert_carmen, is_carmen_file};
@@ -78,7 +79,7 @@ impl Bag {
         path: &Path,
         look: &mut dyn FnMut(&Path) -> Result<Part, BagError>,
     ) -> Result<Self, BagError> {
-        let about = path.metadata().map_err(BagError::file(path))?;
+        let about = fs::metadata(path).map_err(BagError::file(path))?;
         let mut findings = Diagnostics::new();
         if !about.is_dir() && path.file_name().is_some_and(|name| name == METADATA) {
             let folder = path.parent().filter(|parent| !parent.as_os_str().is_empty());
@@ -279,7 +280,7 @@ impl Bag {
     /// # Errors
     /// When the bag is not a `ros2 bag` folder, or the file cannot be written.
     pub fn reindex(&self, style: Style) -> Result<(), BagError> {
-        if !self.path.is_dir() {
+        if !fs::is_dir(&self.path) {
             let why = "only folders of `ros2 bag` have a metadata.yaml".to_owned();
             return Err(BagError::NoBag(self.path.clone(), why));
         }
@@ -298,7 +299,7 @@ impl Bag {
         };
         let path = self.path.join(METADATA);
         let text = self.describe().to_yaml_for(style, &stored);
-        std::fs::write(&path, text).map_err(BagError::file(&path))
+        fs::write(&path, text).map_err(BagError::file(&path))
     }
 }
 
@@ -337,10 +338,10 @@ fn folder_files(
     findings: &mut Diagnostics,
 ) -> Result<(Vec<PathBuf>, Option<Metadata>), BagError> {
     let path = folder.join(METADATA);
-    let length = path.metadata().map_or(0, |metadata| metadata.len());
+    let length = fs::metadata(&path).map_or(0, |metadata| metadata.len());
     let mut metadata = None;
-    if path.is_file() && length <= LARGEST_METADATA {
-        let text = std::fs::read(&path).map_err(BagError::file(&path))?;
+    if fs::is_file(&path) && length <= LARGEST_METADATA {
+        let text = fs::read(&path).map_err(BagError::file(&path))?;
         let mut sources = SourceMap::new();
         let text = String::from_utf8_lossy(&text).into_owned();
         let file = sources.add(path.display().to_string(), text);
@@ -365,7 +366,7 @@ fn folder_files(
         // Old metadata includes the folder name. All files are in this folder.
         let Some(name) = Path::new(&named.path).file_name() else { continue };
         let file = folder.join(name);
-        if file.is_file() {
+        if fs::is_file(&file) {
             files.push(file);
         } else {
             let wrong =

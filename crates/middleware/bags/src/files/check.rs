@@ -1,10 +1,10 @@
 //! Validation of a bag: checksums, indexes, and decoding of every message.
 
 use std::collections::BTreeMap;
-use std::fs;
 
 use crate::{Selection, Target, Translation};
 use periplus_diagnostics::{Diagnostic, Diagnostics};
+use periplus_os::fs;
 
 use crate::files::{Bag, BagError, Storage};
 
@@ -22,7 +22,7 @@ const STEP: u64 = 256;
 pub fn check(bag: &Bag, progress: &mut dyn FnMut(u64)) -> Result<(u64, Diagnostics), BagError> {
     let mut findings = Diagnostics::new();
     for path in bag.files() {
-        let bytes = path.metadata().map_err(BagError::file(path))?.len();
+        let bytes = fs::metadata(path).map_err(BagError::file(path))?.len();
         let is_mcap = Storage::of_path(path) == Some(Storage::Mcap);
         if is_mcap && bytes <= STRICT {
             for fault in crate::check(&fs::read(path).map_err(BagError::file(path))?) {

@@ -8,6 +8,8 @@ use crate::{ReadError, WriteError};
 use periplus_diagnostics::plain_words;
 use periplus_graph::GraphError;
 
+use crate::files::sqlite::DatabaseError;
+
 /// Reason for which a bag cannot be opened, read or written.
 #[derive(Debug)]
 #[non_exhaustive]
@@ -19,7 +21,9 @@ pub enum BagError {
     /// A file became unreadable.
     Read(PathBuf, ReadError),
     /// A database cannot be read or written.
-    Database(PathBuf, rusqlite::Error),
+    Database(PathBuf, DatabaseError),
+    /// This build has no SQLite: it runs in a browser tab.
+    WithoutDatabases(PathBuf),
     /// A compressed file or message cannot be decompressed.
     Unpack(PathBuf, String),
     /// A file cannot be written.
@@ -48,7 +52,7 @@ impl BagError {
         move |error| Self::Write(path, error)
     }
 
-    pub(crate) fn database(path: &Path) -> impl FnOnce(rusqlite::Error) -> Self {
+    pub(crate) fn database(path: &Path) -> impl FnOnce(DatabaseError) -> Self {
         let path = path.to_owned();
         move |error| Self::Database(path, error)
     }
@@ -65,6 +69,12 @@ impl fmt::Display for BagError {
             Self::Database(path, error) => {
                 write!(f, "`{}`: the database cannot be used: {error}", path.display())
             }
+            Self::WithoutDatabases(path) => write!(
+                f,
+                "`{}`: databases of SQLite cannot be used in a browser tab; convert it with \
+                 `periplus bag convert BAG -o BAG.mcap`, or use `periplus view`",
+                path.display()
+            ),
             Self::Unpack(path, why) => {
                 write!(f, "`{}` cannot be decompressed: {why}", path.display())
             }

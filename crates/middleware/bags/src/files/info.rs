@@ -48,7 +48,11 @@ impl Info {
     #[must_use]
     pub fn of(bag: &Bag) -> Self {
         let file = |path: &std::path::Path| {
-            let name = if bag.path().is_dir() { path.file_name() } else { Some(path.as_os_str()) };
+            let name = if periplus_os::fs::is_dir(bag.path()) {
+                path.file_name()
+            } else {
+                Some(path.as_os_str())
+            };
             name.unwrap_or_default().to_string_lossy().into_owned()
         };
         let topic = |(topic, count): (&crate::BagTopic, &u64)| TopicSum {

@@ -6,6 +6,7 @@
 use std::io::Read;
 
 use crate::files::write::Packing;
+use crate::zstandard;
 
 /// Compression of a message, if any.
 pub(crate) fn packing_of(data: &[u8]) -> Option<Packing> {
@@ -20,7 +21,7 @@ const LARGEST: u64 = 256 << 20;
 pub(crate) fn unpack(packing: Packing, data: &[u8], out: &mut Vec<u8>) -> Result<(), String> {
     out.clear();
     let read = match packing {
-        Packing::Zstd => zstd::stream::read::Decoder::with_buffer(data)
+        Packing::Zstd => zstandard::decoder_of(data)
             .and_then(|decoder| decoder.take(LARGEST + 1).read_to_end(out)),
         Packing::Lz4 => lz4_flex::frame::FrameDecoder::new(data).take(LARGEST + 1).read_to_end(out),
     };

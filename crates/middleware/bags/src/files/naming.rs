@@ -1,8 +1,9 @@
 //! Recognition of files by name and first bytes.
 
-use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
+
+use periplus_os::fs::{self, File};
 
 use crate::files::BagError;
 use crate::files::write::{Packing, Storage};
@@ -33,7 +34,7 @@ pub(crate) fn content(path: &Path) -> Result<Option<Content>, BagError> {
 
 /// Files of a folder that may be parts of a bag, in the order of their numbers.
 pub(crate) fn bag_files(folder: &Path) -> Result<Vec<PathBuf>, BagError> {
-    let entries = std::fs::read_dir(folder).map_err(BagError::file(folder))?;
+    let entries = fs::read_dir(folder).map_err(BagError::file(folder))?;
     let mut files = Vec::new();
     for entry in entries {
         let path = entry.map_err(BagError::file(folder))?.path();
@@ -41,7 +42,7 @@ pub(crate) fn bag_files(folder: &Path) -> Result<Vec<PathBuf>, BagError> {
         let plain = name.strip_suffix(".zstd").or_else(|| name.strip_suffix(".lz4"));
         let plain = plain.unwrap_or(&name);
         let stem = plain.strip_suffix(".mcap").or_else(|| plain.strip_suffix(".db3"));
-        if let Some(stem) = stem.filter(|_| path.is_file()) {
+        if let Some(stem) = stem.filter(|_| fs::is_file(&path)) {
             files.push((number(stem), name.to_string(), path.clone()));
         }
     }

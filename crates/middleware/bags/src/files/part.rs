@@ -1,11 +1,11 @@
 //! A file of a bag.
 
 use std::collections::BTreeMap;
-use std::fs::File;
 use std::io::{Read, Seek};
 use std::path::{Path, PathBuf};
 
 use crate::{BagTopic, Message, OwnMessages, Reader, Selection};
+use periplus_os::fs::{self, File};
 
 use crate::files::BagError;
 use crate::files::naming::{Content, content};
@@ -34,7 +34,7 @@ pub(crate) struct Part {
 impl Part {
     /// Reads the summary of a file.
     pub(crate) fn look(path: &Path) -> Result<Self, BagError> {
-        let bytes = path.metadata().map_err(BagError::file(path))?.len();
+        let bytes = fs::metadata(path).map_err(BagError::file(path))?.len();
         let (file, storage, packing) = plain(path)?;
         let file_path = file.as_ref().map_or(path, Temporary::path);
         let mut part = match storage {

@@ -3,11 +3,24 @@
 //! Schema versions of `rosbag2_storage_sqlite3`: 1 (Foxy: no QoS profiles), 2 (Galactic), 3 (Humble
 //! and Iron: a table `schema`), 4 (Jazzy: type definitions and hashes).
 
+#[cfg(target_family = "wasm")]
+mod absent;
+#[cfg(not(target_family = "wasm"))]
 mod read;
+#[cfg(not(target_family = "wasm"))]
 mod rescue;
+#[cfg(not(target_family = "wasm"))]
 mod times;
+#[cfg(not(target_family = "wasm"))]
 mod write;
 
+#[cfg(target_family = "wasm")]
+pub(crate) use absent::{Database, DatabaseError, Rows, SqliteWriter, TimeTable};
+#[cfg(not(target_family = "wasm"))]
 pub(crate) use read::{Database, Rows};
+#[cfg(not(target_family = "wasm"))]
+pub(crate) use rusqlite::Error as DatabaseError;
+#[cfg(not(target_family = "wasm"))]
 pub(crate) use times::TimeTable;
+#[cfg(not(target_family = "wasm"))]
 pub(crate) use write::SqliteWriter;

@@ -1,12 +1,14 @@
 //! Temporary files, removed when they are dropped.
 
-use std::fs::{self, File};
 use std::io::{BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use periplus_os::fs::{self, File};
+
 use crate::files::BagError;
 use crate::files::write::Packing;
+use crate::zstandard;
 
 /// Maximum size of a decompressed file \[bytes\]: recorders split larger bags, and a few kilobytes
 /// of Zstandard may decompress to any size.
@@ -33,8 +35,8 @@ impl Temporary {
     pub(crate) fn new() -> Self {
         static NUMBER: AtomicU64 = AtomicU64::new(0);
         let number = NUMBER.fetch_add(1, Ordering::Relaxed);
-        let name = format!("periplus-bag-{}-{number}", std::process::id());
-        Self { path: std::env::temp_dir().join(name) }
+        let name = format!("periplus-bag-{}-{number}", periplus_os::process_id());
+        Self { path: fs::temp_dir().join(name) }
     }
 
     /// Decompresses a file to the folder for temporary files.
@@ -48,7 +50,7 @@ impl Temporary {
             BagError::Unpack(packed.to_owned(), words)
         };
         let mut unpacked: Box<dyn Read> = match packing {
-            Packing::Zstd => Box::new(zstd::stream::read::Decoder::new(source).map_err(wrong)?),
+            Packing::Zstd => Box::new(zstandard::decoder(source).map_err(wrong)?),
             Packing::Lz4 => Box::new(lz4_flex::frame::FrameDecoder::new(source)),
         };
         let packed_bytes = fs::metadata(packed).map_err(BagError::file(packed))?.len();

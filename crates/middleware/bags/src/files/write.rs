@@ -3,11 +3,11 @@
 mod file;
 mod settings;
 
-use std::fs::{self, File};
 use std::io::{BufReader, BufWriter, Write as _};
 use std::path::{Path, PathBuf};
 
 use crate::{BagInfo, BagTopic, FileInfo, Stamp, Stored, TopicInformation};
+use periplus_os::fs::{self, File};
 
 use crate::files::BagError;
 use crate::files::bag::{METADATA, TopicIndex};
@@ -47,7 +47,7 @@ impl BagWriter {
     pub fn create(path: impl AsRef<Path>, settings: WriteSettings) -> Result<Self, BagError> {
         let path = path.as_ref();
         settings.check(path)?;
-        if path.exists() {
+        if fs::exists(path) {
             return Err(BagError::Exists(path.to_owned()));
         }
         let is_file = Storage::of_path(path).is_some() || settings.storage == Storage::Ros1;

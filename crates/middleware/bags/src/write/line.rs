@@ -33,7 +33,8 @@ const MOST_THREADS: usize = 8;
 
 impl<W: Write + Send + 'static> Line<W> {
     pub(super) fn new(sealer: Sealer<W>, settings: &Settings) -> io::Result<Self> {
-        if settings.threads == 0 {
+        // WebAssembly has no threads; the bytes do not depend on them.
+        if settings.threads == 0 || cfg!(target_family = "wasm") {
             let packer = Packer::new(settings.compression)?;
             return Ok(Self::Straight(Box::new((sealer, packer))));
         }

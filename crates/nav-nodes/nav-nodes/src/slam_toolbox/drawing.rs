@@ -34,7 +34,8 @@ impl Drawer {
             // The receiver may be gone.
             let _ = give.send(map);
         };
-        if self.is_beside {
+        // WebAssembly has no threads.
+        if self.is_beside && !cfg!(target_family = "wasm") {
             let thread = std::thread::Builder::new().name("map".to_owned());
             // Without a thread the map is not drawn this time.
             let _ = thread.spawn(draw);

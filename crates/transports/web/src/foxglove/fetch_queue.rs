@@ -19,6 +19,11 @@ impl FetchQueue {
 
     /// Queues a task. False if the system starts no thread.
     pub(crate) fn push(&mut self, task: Task) -> bool {
+        if cfg!(target_family = "wasm") {
+            // There are no threads.
+            task();
+            return true;
+        }
         let Some(sender) = &self.sender else {
             let (sender, tasks) = channel::<Task>();
             let builder = std::thread::Builder::new().name(self.name.to_owned());

@@ -73,10 +73,19 @@ impl Hub {
             closing: Condvar::new(),
         });
         lock(&shared.state).look(&shared);
+        if cfg!(target_family = "wasm") {
+            return Ok(Self { shared, thread: None });
+        }
         let (looking, builder) = (shared.clone(), std::thread::Builder::new());
         let run = move || looking.run();
         let thread = builder.name("viewers".to_owned()).spawn(run);
         Ok(Self { shared, thread: Some(thread.expect("the system starts a thread")) })
+    }
+
+    /// Looks for changes of the graph and sends the time once, as a thread of the hub does every 20 ms. In
+    /// WebAssembly, which has no threads, the caller does it instead.
+    pub fn spin_once(&self) {
+        self.shared.spin_once();
     }
 
     /// Sets the source of files that clients request by URI. The callback decides which files may
@@ -135,19 +144,22 @@ impl Shared {
         let mut is_closing = lock(&self.is_closing);
         while !*is_closing {
             drop(is_closing);
-            let is_recording = self.recordings.get().is_some_and(|recordings| {
-                recordings.tick();
-                recordings.is_recording()
-            });
-            let mut state = lock(&self.state);
-            state.look(self);
-            state.record_network(self, is_recording);
-            state.go_on(self);
-            state.tell_time(self.graph.now_ns());
-            drop(state);
+            self.spin_once();
             let waited = self.closing.wait_timeout(lock(&self.is_closing), LOOK);
             is_closing = waited.unwrap_or_else(PoisonError::into_inner).0;
         }
+    }
+
+    fn spin_once(&self) {
+        let is_recording = self.recordings.get().is_some_and(|recordings| {
+            recordings.tick();
+            recordings.is_recording()
+        });
+        let mut state = lock(&self.state);
+        state.look(self);
+        state.record_network(self, is_recording);
+        state.go_on(self);
+        state.tell_time(self.graph.now_ns());
     }
 }
 

@@ -1,7 +1,7 @@
 //! Send queue of a client.
 
 use std::collections::{BTreeMap, VecDeque};
-use std::sync::{Arc, Condvar, Mutex, PoisonError};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use periplus_graph::Sample;
@@ -100,6 +100,11 @@ impl Outbox {
     pub(crate) fn wait_for_room(&self, most_bytes: usize, patience: Duration) -> Room {
         let is_full =
             |waiting: &mut Waiting| waiting.end.is_none() && waiting.urgent_bytes > most_bytes;
+        if cfg!(target_family = "wasm") {
+            // Without threads no frames are taken during a request: its answer waits as a whole.
+            let is_closed = lock(&self.waiting).end.is_some();
+            return if is_closed { Room::Closed } else { Room::Free };
+        }
         let waited = self.emptied.wait_timeout_while(lock(&self.waiting), patience, is_full);
         let mut waiting = waited.unwrap_or_else(PoisonError::into_inner).0;
         match (waiting.end.is_some(), is_full(&mut waiting)) {
@@ -182,7 +187,16 @@ impl Outbox {
         let waiting = lock(&self.waiting);
         let is_idle = |waiting: &mut Waiting| !waiting.has_any() && waiting.end.is_none();
         let waited = self.filled.wait_timeout_while(waiting, patience, is_idle);
-        let mut waiting = waited.unwrap_or_else(PoisonError::into_inner).0;
+        self.pop(waited.unwrap_or_else(PoisonError::into_inner).0)
+    }
+
+    /// Takes the next frame, without waiting.
+    #[must_use]
+    pub fn try_take(&self) -> OutboxItem {
+        self.pop(lock(&self.waiting))
+    }
+
+    fn pop(&self, mut waiting: MutexGuard<'_, Waiting>) -> OutboxItem {
         if let Some(frame) = waiting.urgent.pop_front() {
             waiting.urgent_bytes -= frame.len();
             drop(waiting);

@@ -1,6 +1,5 @@
 //! CARMEN logs as recordings.
 
-use std::fs::File;
 use std::io::{BufReader, BufWriter};
 use std::path::Path;
 
@@ -16,6 +15,7 @@ use periplus_msgs::sensor_msgs::LaserScan;
 use periplus_msgs::std_msgs::Header;
 use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_msgs::{EncodeError, Message};
+use periplus_os::fs::File;
 
 /// A message of the log.
 enum Line {

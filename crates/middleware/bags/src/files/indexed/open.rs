@@ -1,13 +1,13 @@
 //! Opening of a recording for random access.
 
 use std::collections::BTreeMap;
-use std::fs::File;
 use std::io::Read as _;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
+use periplus_os::fs::{self, File};
 
 use super::chunk_cache::CachedChunks;
 use super::database_file::DatabaseFile;
@@ -41,7 +41,7 @@ pub(super) fn open(
     if is_carmen_file(path)? {
         return open_carmen(path, progress, cache);
     }
-    if path.is_file() && !is_metadata(path) && content(path)?.is_none() {
+    if fs::is_file(path) && !is_metadata(path) && content(path)?.is_none() {
         let why =
             "it is neither MCAP, nor a database of rosbag2, a bag of ROS 1 or a log of CARMEN";
         return Err(BagError::NoBag(path.to_owned(), why.to_owned()));
@@ -57,7 +57,7 @@ pub(super) fn open(
         Ok(part)
     };
     let bag = Bag::open_with(path, &mut look)?;
-    let format = format_of(path.is_dir(), bag.storage());
+    let format = format_of(fs::is_dir(path), bag.storage());
     assemble(&bag, pending, format, cache)
 }
 
@@ -189,7 +189,7 @@ fn is_metadata(path: &Path) -> bool {
 }
 
 pub(crate) fn is_carmen_file(path: &Path) -> Result<bool, BagError> {
-    if !path.is_file() {
+    if !fs::is_file(path) {
         return Ok(false);
     }
     let file = File::open(path).map_err(BagError::file(path))?;
@@ -200,10 +200,14 @@ pub(crate) fn is_carmen_file(path: &Path) -> Result<bool, BagError> {
 
 /// Size of a file, or of the files of a folder \[bytes\].
 fn size_of(path: &Path) -> u64 {
-    let length = |path: &Path| path.metadata().map_or(0, |about| about.len());
-    if !path.is_dir() {
+    let length = |path: &Path| fs::metadata(path).map_or(0, |about| about.len());
+    if !fs::is_dir(path) {
         return length(path);
     }
-    let entries = std::fs::read_dir(path).into_iter().flatten().flatten();
-    entries.map(|entry| entry.path()).filter(|path| path.is_file()).map(|path| length(&path)).sum()
+    let entries = fs::read_dir(path).into_iter().flatten().flatten();
+    entries
+        .map(|entry| entry.path())
+        .filter(|path| fs::is_file(path))
+        .map(|path| length(&path))
+        .sum()
 }

@@ -1,8 +1,9 @@
 //! Progress of opening.
 
-use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+
+use periplus_os::fs::File;
 
 /// Progress of opening a recording, shared by the thread that opens it and those that watch.
 #[derive(Debug, Default)]

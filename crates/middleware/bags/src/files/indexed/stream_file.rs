@@ -1,11 +1,12 @@
 //! Random access to an MCAP file or ROS 1 bag.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
-use std::fs::File;
 use std::io;
 use std::ops::{ControlFlow, Range};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
+
+use periplus_os::fs::{File, read_exact_at};
 
 use super::location::MessageLocation;
 use super::lock;
@@ -291,7 +292,7 @@ impl StreamFile {
         let size = self.file.metadata().map_err(|error| self.failed(error))?.len();
         let length = length.min(size.saturating_sub(offset));
         let mut bytes = vec![0; usize::try_from(length).unwrap_or(usize::MAX)];
-        read_at(&self.file, &mut bytes, offset).map_err(|error| self.failed(error))?;
+        read_exact_at(&self.file, &mut bytes, offset).map_err(|error| self.failed(error))?;
         Ok(bytes)
     }
 
@@ -302,24 +303,4 @@ impl StreamFile {
 
 fn signed(time: u64) -> i64 {
     i64::try_from(time).unwrap_or(i64::MAX)
-}
-
-/// Reads at an offset without moving the position of the file, which threads share.
-#[cfg(unix)]
-fn read_at(file: &File, bytes: &mut [u8], offset: u64) -> io::Result<()> {
-    std::os::unix::fs::FileExt::read_exact_at(file, bytes, offset)
-}
-
-/// Reads at an offset; each call has its own.
-#[cfg(windows)]
-fn read_at(file: &File, mut bytes: &mut [u8], mut offset: u64) -> io::Result<()> {
-    while !bytes.is_empty() {
-        let count = std::os::windows::fs::FileExt::seek_read(file, bytes, offset)?;
-        if count == 0 {
-            return Err(io::ErrorKind::UnexpectedEof.into());
-        }
-        bytes = &mut bytes[count..];
-        offset += count as u64;
-    }
-    Ok(())
 }

@@ -1,6 +1,5 @@
 //! A file of any storage format.
 
-use std::fs::File;
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -10,6 +9,7 @@ use crate::{
     BagTopic, Compression, Ros1Compression, Ros1Settings, Ros1Writer, Settings, Stamp, Stored,
     TopicId, Writer,
 };
+use periplus_os::fs::File;
 
 use super::{ChunkPacking, Storage, WriteSettings};
 use crate::files::BagError;

@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 use std::io::{self, Read, Write};
+
+use crate::zstandard;
 use std::path::Path;
 
 use crate::Style;
@@ -84,9 +86,7 @@ impl Packing {
         packed.clear();
         match self {
             Self::Zstd => {
-                packed.reserve(zstd::zstd_safe::compress_bound(data.len()));
-                let mut compressor = zstd::bulk::Compressor::new(LEVEL)?;
-                compressor.compress_to_buffer(data, packed)?;
+                zstandard::Compressor::new(LEVEL)?.compress(data, packed)?;
             }
             Self::Lz4 => {
                 let mut encoder = lz4_flex::frame::FrameEncoder::new(packed);
@@ -100,11 +100,7 @@ impl Packing {
     /// Compresses a file.
     pub(crate) fn pack_all<W: Write>(self, mut plain: impl Read, target: W) -> io::Result<W> {
         match self {
-            Self::Zstd => {
-                let mut encoder = zstd::stream::write::Encoder::new(target, LEVEL)?;
-                io::copy(&mut plain, &mut encoder)?;
-                encoder.finish()
-            }
+            Self::Zstd => zstandard::compress_all(LEVEL, plain, target),
             Self::Lz4 => {
                 let mut encoder = lz4_flex::frame::FrameEncoder::new(target);
                 io::copy(&mut plain, &mut encoder)?;

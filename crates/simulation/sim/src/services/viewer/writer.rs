@@ -1,11 +1,11 @@
 //! The changed world, written to a file that the user has named when the simulation was started.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use periplus_diagnostics::plain_words;
 use periplus_graph::{GraphError, Node};
 use periplus_msgs::std_srvs::Trigger;
+use periplus_os::fs;
 
 use super::super::reading::Search;
 use super::super::service_aliases::ServiceAliases;

@@ -86,7 +86,7 @@ pub enum ClientText {
         uri: String,
         /// Id of the response.
         request_id: u32,
-        },
+    },
     /// Requests the definition of a message type, or the names of all types. Extension of Foxglove's
     /// protocol.
     FetchSchema {

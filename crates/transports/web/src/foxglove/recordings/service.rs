@@ -8,6 +8,7 @@ use std::sync::{Arc, Mutex, Weak};
 
 use periplus_bags::files::{BagError, ChunkCache, IndexedBag};
 use periplus_graph::Graph;
+use periplus_os::{fs, start_thread};
 use periplus_transport::lock;
 use serde_json::{Map, Value};
 
@@ -186,8 +187,7 @@ impl Recordings {
                 background::run(&recording);
             }
         };
-        let builder = std::thread::Builder::new().name("recording".to_owned());
-        builder.spawn(run).map_err(|error| {
+        start_thread("recording", run).map_err(|error| {
             lock(&self.state).entries.remove(&id);
             OpenRecordingError::NoThread(error.to_string())
         })?;
@@ -417,7 +417,7 @@ fn opening(name: String, path: PathBuf) -> (Entry, Arc<EntryProgress>) {
 fn name_of(path: &Path) -> String {
     let is_metadata = path.file_name().is_some_and(|name| name == "metadata.yaml");
     let named = if is_metadata { path.parent().unwrap_or(path) } else { path };
-    let name = if named.is_dir() { named.file_name() } else { named.file_stem() };
+    let name = if fs::is_dir(named) { named.file_name() } else { named.file_stem() };
     name.unwrap_or(named.as_os_str()).to_string_lossy().into_owned()
 }
 

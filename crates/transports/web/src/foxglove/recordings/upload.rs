@@ -1,12 +1,12 @@
 //! Files that a client uploads.
 
 use std::collections::{BTreeSet, VecDeque};
-use std::fs::{self, File};
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use periplus_diagnostics::plain_words;
+use periplus_os::fs::{self, File};
 
 use crate::foxglove::protocol::UploadFile;
 
@@ -25,7 +25,8 @@ impl TemporaryFolder {
     pub(super) fn create(parent: &Path, purpose: &str) -> Result<Self, String> {
         static NUMBER: AtomicU64 = AtomicU64::new(0);
         let number = NUMBER.fetch_add(1, Ordering::Relaxed);
-        let path = parent.join(format!("periplus-{purpose}-{}-{number}", std::process::id()));
+        let path =
+            parent.join(format!("periplus-{purpose}-{}-{number}", periplus_os::process_id()));
         fs::create_dir_all(&path)
             .map_err(|error| format!("`{}`: {}", path.display(), plain_words(&error)))?;
         Ok(Self(path))

@@ -10,7 +10,7 @@ use periplus_resources::{MemoryHost, Resolver};
 use periplus_sim::{Composition, PlacementPose, RobotPlacement, compose};
 
 /// Name of the world.
-pub(super) const WORLD_NAME: &str = "demo_room";
+pub const WORLD_NAME: &str = "demo_room";
 
 /// Parameters of the costmaps.
 pub(super) const COSTMAPS: &str = include_str!("costmaps.yaml");
@@ -37,7 +37,8 @@ const FILES: [(&str, &str); 9] = [
 ];
 
 /// World with the robot.
-pub(crate) fn composition() -> Composition {
+#[must_use]
+pub fn composition() -> Composition {
     let host =
         FILES.iter().fold(MemoryHost::new(), |host, (path, text)| host.with_file(path, *text));
     let resolver = Resolver::new(&host, &[]);

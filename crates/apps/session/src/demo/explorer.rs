@@ -24,7 +24,7 @@ const MAP_PERIOD_NS: i64 = 1_000_000_000;
 const HALF_WIDTH_M: f64 = 0.24;
 
 /// Node that drives the robot to unexplored space.
-pub(super) struct Explorer {
+pub struct ExplorerNode {
     explorer: periplus_exploration::Explorer,
     frames: Frames,
     moving: Mailbox<TFMessage>,
@@ -38,12 +38,12 @@ pub(super) struct Explorer {
     next_ns: i64,
     look_ns: i64,
     /// Estimated pose.
-    pub(super) map_from_base: Option<Pose2>,
+    pub map_from_base: Option<Pose2>,
     /// Estimated distance travelled \[m\].
-    pub(super) driven_m: f64,
+    pub driven_m: f64,
 }
 
-impl Explorer {
+impl ExplorerNode {
     pub(super) fn join(graph: &Graph) -> Result<Self, GraphError> {
         let node = graph.node(NodeSettings::new("explorer"))?;
         Ok(Self {
@@ -65,7 +65,8 @@ impl Explorer {
     }
 
     /// State of the exploration.
-    pub(super) fn mood(&self) -> Mood {
+    #[must_use]
+    pub fn mood(&self) -> Mood {
         self.explorer.mood()
     }
 
@@ -88,7 +89,7 @@ impl Explorer {
         let Ok((pose, _)) = self.frames.at("map", "base_link", 0) else { return };
         let here = Pose2::from(pose);
         if let Some(before) = self.map_from_base.replace(here) {
-            self.driven_m += (here.x_m - before.x_m).hypot(here.y_m - before.y_m);
+            self.driven_m += libm::hypot(here.x_m - before.x_m, here.y_m - before.y_m);
         }
         if now_ns >= self.look_ns
             && let Some(map) = self.map.as_deref().and_then(grid_of)
@@ -115,7 +116,8 @@ impl Explorer {
                 continue;
             }
             let range = f64::from(*range);
-            let (x, y) = base_from_laser.transform_point(range * angle.cos(), range * angle.sin());
+            let (sine, cosine) = libm::sincos(angle);
+            let (x, y) = base_from_laser.transform_point(range * cosine, range * sine);
             if x > 0.0 && y.abs() < HALF_WIDTH_M {
                 nearest_m = nearest_m.min(x);
             }

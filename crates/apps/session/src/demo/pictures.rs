@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use periplus_graph::{Graph, GraphError, Mailbox, Node, NodeSettings, Qos};
 use periplus_msgs::sensor_msgs::{Image, LaserScan};
-use periplus_session::files::{FileError, write};
 
+use crate::files::{FileError, write};
 use crate::pictures;
 
 /// Time before the end at which the camera is subscribed \[ns\]: images cost more than all other
@@ -14,7 +14,7 @@ use crate::pictures;
 const CAMERA_LEAD_NS: i64 = 200_000_000;
 
 /// Keeps the last scan and the last images.
-pub(super) struct SnapshotRecorder {
+pub(crate) struct SnapshotRecorder {
     node: Node,
     end_ns: Option<i64>,
     scans: Mailbox<LaserScan>,

@@ -14,8 +14,9 @@ const ROBOT_COLOUR: [u8; 3] = [30, 60, 120];
 /// Pixels of a depth image that hit nothing.
 const NO_RETURN_COLOUR: [u8; 3] = [40, 60, 110];
 
-/// Renders a scan from above, with the robot in the centre and its front up.
-pub(crate) fn of_scan(scan: &LaserScan) -> Vec<u8> {
+/// Renders a scan from above as PNG, with the robot in the centre and its front up.
+#[must_use]
+pub fn of_scan(scan: &LaserScan) -> Vec<u8> {
     let reach_m = f64::from(scan.range_max).clamp(0.1, 1000.0);
     let middle = SIDE_PX as f64 / 2.0;
     let scale = 0.96 * middle / reach_m;
@@ -52,7 +53,7 @@ pub(crate) fn of_scan(scan: &LaserScan) -> Vec<u8> {
 ///
 /// # Errors
 /// The encoding, if it is none of `rgb8`, `bgr8`, `rgba8`, `bgra8`, `mono8`, `32FC1` and `16UC1`, or a lack of bytes.
-pub(crate) fn of_image(image: &Image) -> Result<Vec<u8>, String> {
+pub fn of_image(image: &Image) -> Result<Vec<u8>, String> {
     let pixels: Vec<[u8; 3]> = match image.encoding.as_str() {
         "rgb8" | "8UC3" => values(image, 3, |of| [of[0], of[1], of[2]])?,
         "bgr8" => values(image, 3, |of| [of[2], of[1], of[0]])?,

@@ -1,0 +1,180 @@
+//! A session with one client.
+
+use std::fmt;
+use std::path::Path;
+
+use periplus_bags::Compression;
+use periplus_os::{Stopwatch, fs};
+use periplus_session::demo::{self, DemoTask, WORLD_NAME};
+use periplus_session::{PageContext, PageHub, RecordingRequest, RunError, SimulationSession};
+use periplus_sim::{Diverged, Options, RecordError, RecordingSummary, Search};
+use periplus_web::foxglove::{ClientSession, FrameKind, OutboxItem};
+
+use crate::options::TabOptions;
+
+/// A message to the client.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum TabFrame {
+    /// JSON.
+    Text(Vec<u8>),
+    /// A binary message.
+    Binary(Vec<u8>),
+    /// The client is disconnected, with the reason.
+    End(String),
+}
+
+/// Reasons that a tab cannot start or continue.
+#[derive(Debug)]
+pub enum TabError {
+    /// The options are not those of a tab.
+    Options(serde_json::Error),
+    /// The session cannot start.
+    Run(RunError),
+    /// The client cannot join.
+    NoClient,
+    /// A body diverged.
+    Diverged(Diverged),
+    /// The recording is incomplete.
+    Recording(RecordError),
+    /// A folder cannot be created in memory.
+    Folder(std::io::Error),
+}
+
+impl fmt::Display for TabError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Options(error) => write!(f, "the options are not valid: {error}"),
+            Self::Run(error) => error.fmt(f),
+            Self::NoClient => f.write_str("the page cannot join its session"),
+            Self::Diverged(error) => error.fmt(f),
+            Self::Recording(error) => write!(f, "the bag is incomplete: {error}"),
+            Self::Folder(error) => write!(f, "the folder of the results: {error}"),
+        }
+    }
+}
+
+impl std::error::Error for TabError {}
+
+impl From<RunError> for TabError {
+    fn from(error: RunError) -> Self {
+        Self::Run(error)
+    }
+}
+
+/// A session that its caller steps, with one client.
+pub struct Tab {
+    // Fields are dropped in this order: the client leaves before its hub, and the hub before the graph.
+    client: Option<ClientSession>,
+    hub: Option<PageHub>,
+    task: DemoTask,
+    session: SimulationSession,
+}
+
+impl Tab {
+    /// Starts a session from options in JSON; see [`TabOptions`].
+    ///
+    /// # Errors
+    /// When the options are not valid, or a part cannot start.
+    pub fn open_json(options: &[u8]) -> Result<Self, TabError> {
+        Self::open(&serde_json::from_slice(options).map_err(TabError::Options)?)
+    }
+
+    /// Starts a session.
+    ///
+    /// # Errors
+    /// When a part cannot start.
+    pub fn open(options: &TabOptions) -> Result<Self, TabError> {
+        let options = &options.demo;
+        let simulation = Options { seed: options.seed, ..Options::default() };
+        let out = options.out.as_deref();
+        if let Some(out) = out {
+            fs::create_dir_all(out).map_err(TabError::Folder)?;
+        }
+        let recording = out.map(|out| RecordingRequest {
+            compression: Compression::Lz4,
+            ..demo::recording(&out.join("demo.mcap"))
+        });
+        let search = Search { working_folder: Path::new("/").to_owned(), ..Search::default() };
+        let mut session = demo::builder(simulation, out, Stopwatch::start())
+            .factor(options.is_paced.then_some(1.0))
+            .search(search)
+            .recording(recording)
+            .build()?;
+        let end_ns = options.duration_s.map(|seconds| (seconds * 1e9).round() as i64);
+        let task = DemoTask::join(session.graph(), options.explore, out.is_some(), end_ns)
+            .map_err(RunError::from)?;
+        let context = PageContext { world: Some(WORLD_NAME.to_owned()), ..PageContext::default() };
+        let hub = (!options.headless).then(|| session.open_hub(&context)).transpose()?;
+        let client =
+            hub.as_ref().map(|hub| hub.hub.join().ok_or(TabError::NoClient)).transpose()?;
+        Ok(Self { client, hub, task, session })
+    }
+
+    /// Steps until a simulated time, and serves the requests of the client. Only serves while the world is paused.
+    ///
+    /// # Errors
+    /// When the motion of a body diverges.
+    pub fn step_until(&mut self, end_ns: i64) -> Result<(), TabError> {
+        self.session.serve();
+        while self.time_ns() < end_ns && !self.session.is_paused() {
+            self.session.step_until(end_ns).map_err(TabError::Diverged)?;
+            self.task.spin_once(self.session.simulation().time_ns());
+        }
+        if let Some(hub) = &self.hub {
+            hub.hub.spin_once();
+        }
+        Ok(())
+    }
+
+    /// Simulated time \[ns\].
+    #[must_use]
+    pub fn time_ns(&self) -> i64 {
+        self.session.simulation().time_ns()
+    }
+
+    /// Processes a JSON message of the client; a headless session has none.
+    pub fn text(&mut self, text: &str) {
+        if let Some(client) = &mut self.client {
+            client.text(text);
+        }
+    }
+
+    /// Processes a binary message of the client; a headless session has none.
+    pub fn binary(&mut self, bytes: &[u8]) {
+        if let Some(client) = &mut self.client {
+            client.binary(bytes);
+        }
+    }
+
+    /// Takes the next message to the client.
+    #[must_use]
+    pub fn take(&self) -> Option<TabFrame> {
+        match self.client.as_ref()?.outbox().try_take() {
+            OutboxItem::Frame(frame) => {
+                let bytes = frame.parts().concat();
+                Some(if frame.kind() == FrameKind::Text {
+                    TabFrame::Text(bytes)
+                } else {
+                    TabFrame::Binary(bytes)
+                })
+            }
+            OutboxItem::Nothing => None,
+            OutboxItem::End(why) => Some(TabFrame::End(why)),
+        }
+    }
+
+    /// Closes the recording, if there is one; its file is complete then.
+    ///
+    /// # Errors
+    /// When the recording is incomplete.
+    pub fn close_recording(&mut self) -> Result<Option<RecordingSummary>, TabError> {
+        self.session.graph().settle();
+        self.session.stop_recording().map_err(TabError::Recording)
+    }
+}
+
+impl fmt::Debug for Tab {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Tab").field("time_ns", &self.time_ns()).finish_non_exhaustive()
+    }
+}

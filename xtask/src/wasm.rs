@@ -1,0 +1,82 @@
+//! The simulator in WebAssembly: the crates that must compile for it, the module of the browser tab, and its bag,
+//! which must be that of the native program byte for byte.
+
+use std::path::Path;
+use std::process::Command;
+
+use crate::step::{Failed, build_program, cargo, root, run, timed};
+
+/// Target without an operating system, as browsers run it.
+const TARGET: &str = "wasm32-unknown-unknown";
+
+/// Crates that stay free of threads, sockets and files where they are compiled for [`TARGET`]: those that the tab
+/// uses, and libraries that are useful in a page.
+const CRATES: [&str; 11] = [
+    "periplus-tab",
+    "periplus-session",
+    "periplus-sim",
+    "periplus-nav-nodes",
+    "periplus-web",
+    "periplus-bags",
+    "periplus-loader",
+    "periplus-environments",
+    "periplus-evaluation",
+    "periplus-calibration",
+    "periplus-faults",
+];
+
+/// Checks that all crates of the tab compile for WebAssembly.
+pub(crate) fn check() -> Result<(), Failed> {
+    let mut command = cargo();
+    command.args(["check", "--quiet", "--target", TARGET]);
+    command.args(CRATES.iter().flat_map(|name| ["-p", name]));
+    run(
+        &mut command,
+        "these crates must compile for WebAssembly; `rustup target add wasm32-unknown-unknown` adds the target",
+    )
+}
+
+/// Builds the module, and compares the demo in it with that of the native program for some simulated seconds.
+pub(crate) fn all(seconds: u32) -> Result<(), Failed> {
+    timed("wasm: crates", check)?;
+    timed("wasm: module", || {
+        let words = ["build", "--quiet", "--profile", "wasm", "--target", TARGET];
+        run(cargo().args(words).args(["-p", "periplus-tab"]), "see the errors above")
+    })?;
+    if Command::new("node").arg("--version").output().is_err() {
+        println!("SKIPPED: no node to run the module with; it needs Node 20 or newer");
+        return Ok(());
+    }
+    timed("wasm: periplus", build_program)?;
+    timed("wasm: the same bag as the native program", || same_bag(seconds))
+}
+
+fn same_bag(seconds: u32) -> Result<(), Failed> {
+    let out = root().join("target/tab");
+    std::fs::create_dir_all(&out)
+        .map_err(|error| Failed(format!("cannot create {}: {error}", out.display())))?;
+    let seconds = seconds.to_string();
+    let native = out.join("native");
+    let mut command = Command::new(root().join("target/release/periplus"));
+    command.args(["demo", "--headless", "--bag-compression", "lz4", "--duration", &seconds]);
+    run(command.arg("--out").arg(&native), "see above")?;
+    let module = root().join("target").join(TARGET).join("wasm/periplus_tab.wasm");
+    let mut command = Command::new("node");
+    command.arg(root().join("crates/apps/tab/scripts/demo.mjs")).arg(&module).arg(&seconds);
+    command.arg(out.join("tab.mcap")).arg(native.join("demo.mcap"));
+    run(
+        &mut command,
+        "the bags must be equal: a function differs by platform, such as `f64::sin` in place of `libm::sin`",
+    )?;
+    sizes(&module)
+}
+
+/// Prints the size of the module, raw and with Brotli.
+fn sizes(module: &Path) -> Result<(), Failed> {
+    let script = "const {readFileSync} = require('fs'), z = require('zlib'); \
+        const bytes = readFileSync(process.argv[1]); \
+        const packed = z.brotliCompressSync(bytes, {params: \
+            {[z.constants.BROTLI_PARAM_SIZE_HINT]: bytes.length, [z.constants.BROTLI_PARAM_LGWIN]: 24}}); \
+        console.log(`${bytes.length} bytes, ${packed.length} bytes with Brotli 11`)";
+    run(Command::new("node").args(["-e", script]).arg(module), "see above")
+}
