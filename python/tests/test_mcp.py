@@ -94,7 +94,7 @@ def test_a_robot_with_a_mistake_is_repaired_driven_mapped_and_reported(tmp_path:
         assert {"map/map.yaml", "map/map.pgm"} <= set(structured(mapped)["files"])
         assert pictures_of(mapped), "the trajectory is a picture"
 
-        info = await session.call_tool("map_info", {"map": ["map/map.yaml"]})
+        info = await session.call_tool("map_info", {"path": "map/map.yaml"})
         assert not is_error(info), text_of(info)
 
         report = await session.call_tool("report", {"run": "run.mcap", "output": "run.html"})

@@ -58,7 +58,7 @@ fn same_bag(seconds: u32) -> Result<(), Failed> {
     let seconds = seconds.to_string();
     let native = out.join("native");
     let mut command = Command::new(root().join("target/release/periplus"));
-    command.args(["demo", "--headless", "--bag-compression", "lz4", "--duration", &seconds]);
+    command.args(["demo", "--headless", "--bag-compression", "none", "--duration", &seconds]);
     run(command.arg("--out").arg(&native), "see above")?;
     let module = root().join("target").join(TARGET).join("wasm/periplus_tab.wasm");
     let mut command = Command::new("node");

@@ -14,7 +14,7 @@ const MAX_DESCRIPTION: usize = 200;
 
 /// Returns the text of the file.
 pub(crate) fn text(pages: &[Page], about: &str) -> String {
-    let mut text = format!("# Periplus\n\n> {about}\n");
+    let mut text = format!("# Periplus\n\n> {about}\n\n");
     let contents = pages.iter().find(|page| page.path == CONTENTS);
     for line in contents.map_or("", |page| &page.text).lines() {
         let line = line.trim();
@@ -103,7 +103,7 @@ mod tests {
             [("docs/SUMMARY.md", contents), ("docs/map.md", map), ("docs/a/b.md", "# B")].map(read);
         assert_eq!(
             text(&pages, "About it."),
-            "# Periplus\n\n> About it.\n- [P](index.html)\n\n## How-to\n\n\
+            "# Periplus\n\n> About it.\n\n- [P](index.html)\n\n## How-to\n\n\
              - [Map](map.html): Builds a map from scans.\n- [Bare](a/b.html)\n"
         );
     }

@@ -131,7 +131,7 @@ impl DemoOptions {
 enum BagCompression {
     /// Larger files, quickest
     None,
-    /// As a browser tab records
+    /// LZ4 frames, which are fast to write
     Lz4,
     /// Smallest files
     #[default]

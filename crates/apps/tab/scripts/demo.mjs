@@ -1,4 +1,4 @@
-// Runs the demo in WebAssembly, as `periplus demo --headless --bag-compression lz4` does, and writes its bag.
+// Runs the demo in WebAssembly, as `periplus demo --headless --bag-compression none` does, and writes its bag.
 //
 //   node demo.mjs MODULE.wasm SECONDS OUT.mcap [EXPECTED.mcap]
 //

@@ -91,7 +91,7 @@ impl Tab {
             fs::create_dir_all(out).map_err(TabError::Folder)?;
         }
         let recording = out.map(|out| RecordingRequest {
-            compression: Compression::Lz4,
+            compression: Compression::None,
             ..demo::recording(&out.join("demo.mcap"))
         });
         let search = Search { working_folder: Path::new("/").to_owned(), ..Search::default() };

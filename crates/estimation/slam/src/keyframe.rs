@@ -6,6 +6,12 @@ use std::sync::Arc;
 use periplus_geometry::Pose2;
 use periplus_scan_matching::{Cloud, PackedCloud, PackedPlaces};
 
+use crate::memory::on_64_bits;
+
+/// Size of a keyframe, and of what it points to, without points \[bytes\].
+const KEYFRAME_BYTES: usize =
+    on_64_bits::<Keyframe>(24) + on_64_bits::<(PackedCloud, PackedPlaces)>(96);
+
 /// A scan that is kept.
 #[derive(Clone, Debug)]
 pub(crate) struct Keyframe {
@@ -29,7 +35,7 @@ impl Keyframe {
     /// Bytes held, about.
     pub(crate) fn size(&self) -> usize {
         let ends = self.ends.as_ref().map_or(0, |it| it.size());
-        self.cloud.size() + ends + size_of::<Self>() + size_of::<(PackedCloud, PackedPlaces)>()
+        self.cloud.size() + ends + KEYFRAME_BYTES
     }
 }
 

@@ -51,6 +51,7 @@ mod local;
 mod localizer;
 mod loops;
 mod map;
+mod memory;
 mod method;
 mod mounting;
 mod odometry_diagnostics;

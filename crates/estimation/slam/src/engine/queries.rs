@@ -10,6 +10,7 @@ use crate::keyframe::{Keyframe, TrajectoryNode};
 use crate::local::apart;
 use crate::loops::Closure;
 use crate::map::MapSnapshot;
+use crate::memory::on_64_bits;
 use crate::remark::Remark;
 use crate::settings::Settings;
 
@@ -212,8 +213,8 @@ impl Slam {
     pub fn size(&self) -> usize {
         let keyframes: usize = self.keyframes.iter().map(Keyframe::size).sum();
         keyframes
-            + self.graph.edges.len() * (size_of::<Edge>() + 8)
-            + self.nodes.len() * size_of::<TrajectoryNode>()
+            + self.graph.edges.len() * (on_64_bits::<Edge>(200) + 8)
+            + self.nodes.len() * on_64_bits::<TrajectoryNode>(40)
             + self.loops.size()
     }
 }
