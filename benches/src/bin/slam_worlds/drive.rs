@@ -1,5 +1,6 @@
 //! A drive through a world, recorded, and where the robot really was.
 
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -67,7 +68,7 @@ pub(crate) fn drive(stage: &Stage, seed: u64, bag: &Path) -> Result<Drive, Strin
         .map_err(|why| why.to_string())?;
     let mut odom_from_base = Pose2::IDENTITY;
     let mut log = String::new();
-    let recorder = SimulationRecorder::start(&simulation, bag, Box::new(wanted))
+    let recorder = SimulationRecorder::start(&simulation, bag, Box::new(wanted), BTreeMap::new())
         .map_err(|it| it.to_string())?;
     let mut truth: Vec<(i64, Pose2)> = Vec::new();
     // A little standing still at the end.

@@ -211,7 +211,7 @@ impl SessionBuilder {
             .map(|request| record(&simulation, request, self.records_truth, description.clone()));
         let recorder = recorder.transpose()?;
         if let Some(page) = &mut self.page {
-            page.context.description.clone_from(&description);
+            page.context_mut().description.clone_from(&description);
         }
         if let Some(topics) = self.computed.take() {
             compute_topics(&simulation, topics);

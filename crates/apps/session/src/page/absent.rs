@@ -15,6 +15,10 @@ impl NoPageSettings {
     pub(crate) fn context(&self) -> &PageContext {
         match *self {}
     }
+
+    pub(crate) fn context_mut(&mut self) -> &mut PageContext {
+        match *self {}
+    }
 }
 
 impl NoPage {

@@ -45,6 +45,10 @@ impl PageSettings {
         &self.context
     }
 
+    pub(crate) fn context_mut(&mut self) -> &mut PageContext {
+        &mut self.context
+    }
+
     /// Required page at an address, without a browser.
     #[must_use]
     pub fn at(address: SocketAddr, token: Option<String>, context: PageContext) -> Self {

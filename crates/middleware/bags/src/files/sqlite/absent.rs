@@ -1,12 +1,14 @@
 //! Databases in WebAssembly: none can be opened, since SQLite is written in C.
 
+use std::collections::BTreeMap;
 use std::convert::Infallible;
 use std::ops::{ControlFlow, Range};
 use std::path::Path;
 
 use crate::files::BagError;
 use crate::files::part::Part;
-use crate::{BagTopic, Message, Selection, Stamp, Stored, Style};
+use crate::files::write::WriteSettings;
+use crate::{BagTopic, Message, Selection, Stamp, Stored};
 
 /// Error of a database.
 pub(crate) type DatabaseError = Infallible;
@@ -51,6 +53,7 @@ pub(crate) struct TimeSummary {
     pub(crate) span_ns: Option<(i64, i64)>,
     pub(crate) faults: Vec<String>,
     pub(crate) ros_distro: String,
+    pub(crate) custom_data: BTreeMap<String, String>,
 }
 
 impl TimeTable {
@@ -93,7 +96,7 @@ impl TimeTable {
 pub(crate) struct SqliteWriter(Infallible);
 
 impl SqliteWriter {
-    pub(crate) fn create(path: &Path, _: Style, _: &str, _: bool) -> Result<Self, BagError> {
+    pub(crate) fn create(path: &Path, _: &WriteSettings) -> Result<Self, BagError> {
         Err(BagError::WithoutDatabases(path.to_owned()))
     }
 
