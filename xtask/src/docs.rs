@@ -29,7 +29,7 @@ pub(crate) enum Part {
     Site,
 }
 
-/// What `docs/llms.txt` says of Periplus.
+/// Description of Periplus in `docs/llms.txt`.
 const ABOUT: &str = "Simulates mobile robots from URDF, SDF and launch files, builds maps, localizes, keeps \
     costmaps and navigates, without ROS, Gazebo or a GPU; ROS 2, Gazebo and Foxglove see an ordinary robot.";
 

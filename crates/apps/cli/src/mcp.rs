@@ -21,7 +21,7 @@ use crate::help;
 use crate::own_command::own_command;
 use tools::VerbTool;
 
-/// What a client reads before it uses the tools.
+/// Instructions for clients, sent at the start.
 const INSTRUCTIONS: &str = "Periplus simulates mobile robots, builds maps, localizes and navigates. Every tool is a \
     command of `periplus` with the same options. Files are read from and written to the working folder of the server. \
     A usual task: `check` a robot (URDF, xacro, SDF) or a world and correct what it reports; `look` for a picture of it; \

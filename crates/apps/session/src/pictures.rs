@@ -1,5 +1,7 @@
 //! Pictures of messages: images and scans.
 
+use std::fmt;
+
 use periplus_grid::Line;
 use periplus_images::{Layout, write_png};
 use periplus_msgs::sensor_msgs::{Image, LaserScan};
@@ -49,11 +51,42 @@ pub fn of_scan(scan: &LaserScan) -> Vec<u8> {
     write_png(SIDE_PX as u32, SIDE_PX as u32, Layout::Rgb, pixels.as_flattened())
 }
 
+/// Reason for which an image cannot be drawn.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum PictureError {
+    /// Encoding that is not supported.
+    Encoding(String),
+    /// Number of bytes that does not fit the size.
+    Bytes {
+        /// Number of bytes.
+        bytes: usize,
+        /// Width \[px\].
+        width: usize,
+        /// Height \[px\].
+        height: usize,
+        /// Encoding.
+        encoding: String,
+    },
+}
+
+impl fmt::Display for PictureError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Encoding(encoding) => write!(f, "its encoding is `{encoding}`"),
+            Self::Bytes { bytes, width, height, encoding } => {
+                write!(f, "{bytes} bytes are not {width} by {height} pixels of `{encoding}`")
+            }
+        }
+    }
+}
+
+impl std::error::Error for PictureError {}
+
 /// Draws an image as PNG. Of depths near is dark, pixels without a return are blue.
 ///
 /// # Errors
 /// The encoding, if it is none of `rgb8`, `bgr8`, `rgba8`, `bgra8`, `mono8`, `32FC1` and `16UC1`, or a lack of bytes.
-pub fn of_image(image: &Image) -> Result<Vec<u8>, String> {
+pub fn of_image(image: &Image) -> Result<Vec<u8>, PictureError> {
     let pixels: Vec<[u8; 3]> = match image.encoding.as_str() {
         "rgb8" | "8UC3" => values(image, 3, |of| [of[0], of[1], of[2]])?,
         "bgr8" => values(image, 3, |of| [of[2], of[1], of[0]])?,
@@ -63,22 +96,27 @@ pub fn of_image(image: &Image) -> Result<Vec<u8>, String> {
         // Metres, and millimetres where 0 is no return.
         "32FC1" => greys(&values(image, 4, |of| f32::from_le_bytes([of[0], of[1], of[2], of[3]]))?),
         "16UC1" => greys(&values(image, 2, |of| f32::from(u16::from_le_bytes([of[0], of[1]])))?),
-        other => return Err(format!("its encoding is `{other}`")),
+        other => return Err(PictureError::Encoding(other.to_owned())),
     };
     Ok(write_png(image.width, image.height, Layout::Rgb, pixels.as_flattened()))
 }
 
 /// Reads a value of each pixel from its bytes.
-fn values<T>(image: &Image, bytes: usize, read: impl Fn(&[u8]) -> T) -> Result<Vec<T>, String> {
+fn values<T>(
+    image: &Image,
+    bytes: usize,
+    read: impl Fn(&[u8]) -> T,
+) -> Result<Vec<T>, PictureError> {
     let (width, height) = (image.width as usize, image.height as usize);
     let row_bytes = image.step as usize;
     let is_whole = row_bytes >= width * bytes && image.data.len() >= row_bytes * height;
     if !is_whole || width * height == 0 {
-        return Err(format!(
-            "{} bytes are not {width} by {height} pixels of `{}`",
-            image.data.len(),
-            image.encoding
-        ));
+        return Err(PictureError::Bytes {
+            bytes: image.data.len(),
+            width,
+            height,
+            encoding: image.encoding.clone(),
+        });
     }
     let rows = image.data.chunks_exact(row_bytes).take(height);
     Ok(rows.flat_map(|row| row.chunks_exact(bytes).take(width).map(&read)).collect())
@@ -127,8 +165,11 @@ mod tests {
 
     #[test]
     fn what_cannot_be_drawn_is_named() {
-        assert_eq!(of_image(&image("yuv422", 4, &[0; 4])).unwrap_err(), "its encoding is `yuv422`");
-        let short = of_image(&image("rgb8", 6, &[0; 5])).unwrap_err();
+        assert_eq!(
+            of_image(&image("yuv422", 4, &[0; 4])).unwrap_err().to_string(),
+            "its encoding is `yuv422`"
+        );
+        let short = of_image(&image("rgb8", 6, &[0; 5])).unwrap_err().to_string();
         assert_eq!(short, "5 bytes are not 2 by 1 pixels of `rgb8`");
     }
 }

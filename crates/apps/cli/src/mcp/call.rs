@@ -158,7 +158,7 @@ impl Output {
                 while let Ok(count @ 1..) = pipe.read(&mut buffer) {
                     let mut bytes = filled.lock().unwrap_or_else(PoisonError::into_inner);
                     bytes.extend_from_slice(&buffer[..count]);
-                    // The end says how a run went: the oldest is dropped.
+                    // The end reports how a run went: the oldest is dropped.
                     if bytes.len() > 4 * MAX_OUTPUT_BYTES {
                         let old = bytes.len() - 2 * MAX_OUTPUT_BYTES;
                         bytes.drain(..old);

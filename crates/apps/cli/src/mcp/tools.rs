@@ -12,10 +12,10 @@ const NOT_OFFERED: [&str; 7] =
     ["completions", "conformance", "help", "man", "mcp", "teleop", "view"];
 
 /// Argument of every tool: maximum duration.
-const TIMEOUT: &str = "timeout_s";
+const TIMEOUT_ARGUMENT: &str = "timeout_s";
 
 /// Argument of every tool: words that are added to the command line as they are.
-const MORE: &str = "more_arguments";
+const MORE_ARGUMENTS: &str = "more_arguments";
 
 /// Default of `timeout_s` \[s\].
 const DEFAULT_TIMEOUT_S: f64 = 300.0;
@@ -107,7 +107,7 @@ impl VerbTool {
             properties.insert(name, property(argument));
         }
         properties.insert(
-            TIMEOUT.to_owned(),
+            TIMEOUT_ARGUMENT.to_owned(),
             json!({
                 "type": "number",
                 "exclusiveMinimum": 0,
@@ -117,7 +117,7 @@ impl VerbTool {
             }),
         );
         properties.insert(
-            MORE.to_owned(),
+            MORE_ARGUMENTS.to_owned(),
             json!({
                 "type": "array",
                 "items": { "type": "string" },
@@ -144,7 +144,9 @@ impl VerbTool {
     pub(super) fn words(&self, arguments: &Map<String, Value>) -> Result<Call, String> {
         let known: Vec<(String, &Arg)> = self.arguments().collect();
         let is_known = |name: &str| {
-            name == TIMEOUT || name == MORE || known.iter().any(|(own, _)| own == name)
+            name == TIMEOUT_ARGUMENT
+                || name == MORE_ARGUMENTS
+                || known.iter().any(|(own, _)| own == name)
         };
         if let Some(unknown) = arguments.keys().find(|name| !is_known(name)) {
             let names: Vec<&str> = known.iter().map(|(name, _)| name.as_str()).collect();
@@ -175,27 +177,27 @@ impl VerbTool {
             let found = words_of(name, argument, value)?;
             if argument.is_positional() { positional.extend(found) } else { words.extend(found) }
         }
-        match arguments.get(MORE) {
+        match arguments.get(MORE_ARGUMENTS) {
             Some(Value::Array(more)) => {
                 for word in more {
-                    words.push(scalar(MORE, word)?);
+                    words.push(scalar(MORE_ARGUMENTS, word)?);
                 }
             }
             Some(Value::Null) | None => {}
-            Some(_) => return Err(format!("`{MORE}` is a list of words")),
+            Some(_) => return Err(format!("`{MORE_ARGUMENTS}` is a list of words")),
         }
         // A file after `--robot FILE` would be read as an argument of the robot.
         if !positional.is_empty() {
             words.push("--".to_owned());
             words.extend(positional);
         }
-        let timeout_s = match arguments.get(TIMEOUT) {
+        let timeout_s = match arguments.get(TIMEOUT_ARGUMENT) {
             Some(Value::Null) | None => DEFAULT_TIMEOUT_S,
             Some(value) => value
                 .as_f64()
                 .filter(|seconds| *seconds > 0.0 && *seconds <= MAX_TIMEOUT_S)
                 .ok_or_else(|| {
-                    format!("`{TIMEOUT}` is a number above 0 and at most {MAX_TIMEOUT_S}")
+                    format!("`{TIMEOUT_ARGUMENT}` is a number above 0 and at most {MAX_TIMEOUT_S}")
                 })?,
         };
         debug_assert!(self.prints_json() || !prints_json, "only commands with `--json` print JSON");
@@ -434,7 +436,11 @@ mod tests {
             names.sort();
             names.dedup();
             assert_eq!(names.len(), count, "{}: {names:?}", tool.name);
-            assert!(!names.iter().any(|name| name == TIMEOUT || name == MORE), "{}", tool.name);
+            assert!(
+                !names.iter().any(|name| name == TIMEOUT_ARGUMENT || name == MORE_ARGUMENTS),
+                "{}",
+                tool.name
+            );
         }
     }
 }

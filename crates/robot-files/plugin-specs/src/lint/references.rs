@@ -398,7 +398,7 @@ mod tests {
         );
     }
 
-    /// The drive found no such joint, and the check had nothing to say.
+    /// The simulation found no such joint, after a check without findings.
     #[test]
     fn a_link_is_not_a_joint_for_harmonic() {
         check(
