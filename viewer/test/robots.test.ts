@@ -90,6 +90,11 @@ test('one robot without a namespace whose frames have a prefix', () => {
   expect([robot!.namespace, robot!.framePrefix]).toEqual(['', 'bot/']);
 });
 
+test("Gazebo's own topic of transforms is not that of a robot", () => {
+  const robots = find(['/model/bot/tf', '/model/bot/cmd_vel', '/lidar']);
+  expect(robots).toMatchObject([{ hasOwnTf: false, framePrefix: '' }]);
+});
+
 test('robots by their commands alone, or by their odometry', () => {
   expect(namespaces(['/turtle1/cmd_vel', '/turtle2/cmd_vel', '/turtle1/pose'])).toEqual([
     '/turtle1',

@@ -35,6 +35,8 @@ export interface Wire {
 
 /** Frames that robots with separate transforms share: Nav2 gives each of them the same map. */
 const SHARED_FRAMES: readonly string[] = ['map', 'world', 'earth'];
+/** Gazebo's own topic of a model's transforms, which no ROS program reads unless a bridge renames it. */
+const OF_GAZEBO = /^\/model\/[^/]+\/tf$/;
 /** Node name under which all pages appear. */
 const OWN_NODE = '/viewers';
 export const BASE_FRAMES: readonly string[] = ['base_footprint', 'base_link'];
@@ -66,7 +68,8 @@ export function findRobots({ topics, services, frames }: Wire): Robot[] {
     ({ name, type }) => /\/robot_description$/.test(name) && /^$|\/String$/.test(type),
   );
   const transforms = own.filter(
-    ({ name, type }) => /.\/tf(_static)?$/.test(name) && /^$|\/TFMessage$/.test(type),
+    ({ name, type }) =>
+      /.\/tf(_static)?$/.test(name) && /^$|\/TFMessage$/.test(type) && !OF_GAZEBO.test(name),
   );
   const navigators = namespacesOf([...own, ...services].map(({ name }) => name));
   const commands = own.filter((one) => isCommand(one) && isUsed(one));

@@ -8,7 +8,9 @@ fn drain(tab: &Tab) -> (Vec<Value>, usize) {
     let (mut texts, mut binaries) = (Vec::new(), 0);
     while let Some(frame) = tab.take() {
         match frame {
-            TabFrame::Text(text) => texts.push(serde_json::from_slice(&text).unwrap()),
+            TabFrame::Text(text) => {
+                texts.push(serde_json::from_slice(&text).expect("JSON of the protocol"));
+            }
             TabFrame::Binary(_) => binaries += 1,
             TabFrame::End(why) => panic!("the client is disconnected: {why}"),
         }

@@ -21,6 +21,14 @@ pub mod fs;
 mod machine;
 mod memory;
 #[cfg(any(test, target_family = "wasm"))]
+#[cfg_attr(
+    not(target_family = "wasm"),
+    expect(
+        dead_code,
+        unreachable_pub,
+        reason = "tests use a part of it; other targets have files"
+    )
+)]
 mod memory_fs;
 mod overlay;
 mod process;

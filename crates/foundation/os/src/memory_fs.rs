@@ -181,7 +181,6 @@ pub struct MemoryFileInfo {
     bytes: Option<usize>,
 }
 
-#[expect(clippy::len_without_is_empty, reason = "the interface of std")]
 impl MemoryFileInfo {
     /// True for a folder.
     #[must_use]

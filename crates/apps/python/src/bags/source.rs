@@ -24,7 +24,7 @@ pub(super) struct Source {
 }
 
 pub(super) enum SourceKind {
-    Bag(Bag),
+    Bag(Box<Bag>),
     Memory(Memory),
 }
 
@@ -61,7 +61,7 @@ impl Source {
         let bag = Bag::open(path)?;
         let topics = bag.topics().iter().zip(bag.counts());
         let topics = topics.map(|(topic, count)| topic_data(topic, *count)).collect();
-        Ok(Self { kind: SourceKind::Bag(bag), topics })
+        Ok(Self { kind: SourceKind::Bag(Box::new(bag)), topics })
     }
 
     pub(super) fn kind(&self) -> &SourceKind {
@@ -81,7 +81,7 @@ impl Source {
 
     pub(super) fn into_bag(self) -> Option<Bag> {
         match self.kind {
-            SourceKind::Bag(bag) => Some(bag),
+            SourceKind::Bag(bag) => Some(*bag),
             SourceKind::Memory(_) => None,
         }
     }
