@@ -2,7 +2,7 @@
 // markers by pointer and by keys; and what displays and estimators show after a jump in a recording.
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
-import { mkdirSync, writeFileSync } from 'node:fs';
+import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { wrong } from './axe.mjs';
 import { open, periplus, port, PROGRAM, ROOT, sim, until } from './lib.mjs';
@@ -404,6 +404,47 @@ export async function proof(chrome, url, out, attempt) {
         assert.equal(await tabs(), 0, 'tabs of recordings after the replay');
         await dropOn(page, join(bag, 'run_0.mcap'));
         await until(page, 'periplus.replay?.source.playhead.endNs > 5e9', 'the file', 60_000);
+      }),
+    );
+
+    await attempt('proof: plot of a recording', () =>
+      view(chrome, url, bag, async (page) => {
+        const odometry = await page.evaluate(
+          () => window.periplus.topics.find(({ type }) => /Odometry$/.test(type))?.name,
+        );
+        await page.evaluate(() => void window.periplus.workbench.open('plot', {}));
+        const field = page.getByRole('combobox', { name: 'Expression' }).first();
+        await field.fill(`${odometry}:pose.pose.position.x`);
+        await field.press('Enter');
+        await page.getByTitle(`${odometry}:pose.pose.position.x`).first().waitFor();
+        /** Times of the curve [s], from the exported table, once it covers the recording. */
+        const times = async () => {
+          const [file] = await Promise.all([
+            page.waitForEvent('download'),
+            page.getByRole('button', { name: 'CSV' }).click(),
+          ]);
+          const rows = readFileSync(await file.path(), 'utf8')
+            .trim()
+            .split('\r\n')
+            .slice(1);
+          return rows.map((row) => Number(row.split(',')[0]));
+        };
+        await show(page, 0.1);
+        await settled(page);
+        await page.waitForTimeout(1500);
+        const whole = await times();
+        const span = await page.evaluate(() => {
+          const { startS, endS } = window.periplus.replay;
+          return endS - startS;
+        });
+        // The curve is that of the whole recording, wherever the playhead is.
+        assert.ok(
+          whole.at(-1) - whole[0] > 0.9 * span,
+          `${whole[0]} to ${whole.at(-1)} of ${span}`,
+        );
+        await show(page, 0.8);
+        await settled(page);
+        assert.deepEqual(await times(), whole);
       }),
     );
 
