@@ -25,6 +25,20 @@ const CRATES: [&str; 11] = [
     "periplus-faults",
 ];
 
+/// Checks the crates where the standard library of the target is installed, and reports it where it is not.
+pub(crate) fn check_if_installed() -> Result<(), Failed> {
+    let printed =
+        Command::new("rustc").args(["--print", "target-libdir", "--target", TARGET]).output();
+    let is_installed = printed.is_ok_and(|output| {
+        Path::new(String::from_utf8_lossy(&output.stdout).trim()).join("").is_dir()
+    });
+    if !is_installed {
+        eprintln!("SKIPPED: {TARGET} is not installed; `rustup target add {TARGET}` adds it");
+        return Ok(());
+    }
+    check()
+}
+
 /// Checks that all crates of the tab compile for WebAssembly.
 pub(crate) fn check() -> Result<(), Failed> {
     let mut command = cargo();
