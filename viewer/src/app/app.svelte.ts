@@ -148,10 +148,14 @@ export class App {
   subscribeTransforms(topic: string, isStatic: boolean): () => void {
     return this.feed.subscribe(topic, (message, _topic, _bytes, timeS) => {
       const now = timeS === undefined ? performance.now() : timeS * 1000;
+      const renamed = this.robots.renamed(topic);
       for (const one of message.transforms as TransformStamped[]) {
-        const header = { ...one.header, frame_id: this.robots.frameOf(topic, one.header.frame_id) };
-        const child_frame_id = this.robots.frameOf(topic, one.child_frame_id);
-        this.tf.add({ ...one, header, child_frame_id }, isStatic, now);
+        if (!renamed) this.tf.add(one, isStatic, now);
+        else {
+          const header = { ...one.header, frame_id: renamed(one.header.frame_id) };
+          const child_frame_id = renamed(one.child_frame_id);
+          this.tf.add({ ...one, header, child_frame_id }, isStatic, now);
+        }
       }
     });
   }

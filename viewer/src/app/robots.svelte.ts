@@ -92,19 +92,19 @@ export class Robots {
 
   // Frames.
 
-  /** Name on this page of a frame in a message of a topic. */
-  frameOf(topic: string, frame: string): string {
+  /** Names on this page of frames in messages of a topic; `undefined` where they keep their names. */
+  renamed(topic: string): ((frame: string) => string) | undefined {
     const robot = robotOfTopic(this.list, topic);
-    return robot ? frameHere(robot, frame) : frame;
+    return robot?.hasOwnTf ? (frame) => frameHere(robot, frame) : undefined;
   }
 
   /** Handler that gets messages with the names of their frames on this page. */
   withFrames(topic: string, handler: Handler): Handler {
     return (message, name, bytes, timeS) => {
-      const robot = robotOfTopic(this.list, topic);
-      const schema = robot?.hasOwnTf ? schemaOfTopic(this.app, topic) : undefined;
+      const renamed = this.renamed(topic);
+      const schema = renamed && schemaOfTopic(this.app, topic);
       const copy = schema && frameCopier(schema);
-      const shown = copy ? copy(message, (frame) => frameHere(robot!, frame)) : message;
+      const shown = renamed && copy ? copy(message, renamed) : message;
       handler(shown, name, bytes, timeS);
     };
   }
