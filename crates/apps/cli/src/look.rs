@@ -123,7 +123,7 @@ pub(crate) fn run(options: &LookOptions) -> Result<ExitCode, CliError> {
 fn print_findings(composition: &Composition) -> Result<(), CliError> {
     let mut err = anstream::stderr().lock();
     for file in &composition.files {
-        terminal::diagnostics(&mut err, &file.diagnostics, &file.sources)?;
+        terminal::findings(&mut err, file)?;
     }
     Ok(())
 }

@@ -30,7 +30,9 @@ use self::random_goals::random_goals;
 use crate::error::CliError;
 use crate::options::SearchOptions;
 use crate::page::PageOptions;
-use crate::run_options::{Factor, Reach, TopicSelection, exit_code, factor, positive};
+use crate::run_options::{
+    Factor, Reach, TopicSelection, exit_code, factor, finite_numbers, positive,
+};
 use crate::sim::Robots;
 use crate::terminal;
 
@@ -371,9 +373,7 @@ impl SessionTask for NavigateTask {
 }
 
 fn pose(word: &str) -> Result<Pose2, String> {
-    let number = |word: &str| word.trim().parse().ok().filter(|it: &f64| it.is_finite());
-    let numbers: Option<Vec<f64>> = word.split(',').map(number).collect();
-    match numbers.as_deref() {
+    match finite_numbers(word).as_deref() {
         Some(&[x_m, y_m]) => Ok(Pose2::new(x_m, y_m, 0.0)),
         Some(&[x_m, y_m, yaw_rad]) => Ok(Pose2::new(x_m, y_m, yaw_rad)),
         _ => Err(format!("`{word}` is not a pose; write X,Y or X,Y,YAW")),

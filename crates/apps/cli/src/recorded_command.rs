@@ -1,5 +1,7 @@
 //! The command of a run, as its recordings contain it.
 
+use periplus_os::shell_word;
+
 /// Options without influence on the result; the second part is true for options with a value.
 const OMITTED_OPTIONS: [(&str, bool); 16] = [
     ("--threads", true),
@@ -29,7 +31,7 @@ pub(crate) fn recorded_command(words: &[String]) -> String {
     while let Some(word) = words.next() {
         let name = word.split('=').next().unwrap_or(word);
         match OMITTED_OPTIONS.iter().find(|(option, _)| *option == name) {
-            None => kept.push(quoted(word)),
+            None => kept.push(shell_word(word)),
             Some((_, has_value)) => {
                 if *has_value && name == word {
                     words.next();
@@ -38,15 +40,6 @@ pub(crate) fn recorded_command(words: &[String]) -> String {
         }
     }
     kept.join(" ")
-}
-
-/// A word as a shell reads it.
-fn quoted(word: &str) -> String {
-    let is_plain = |c: char| c.is_ascii_alphanumeric() || "/_.,:=+-@%".contains(c);
-    if !word.is_empty() && word.chars().all(is_plain) {
-        return word.to_owned();
-    }
-    format!("'{}'", word.replace('\'', r"'\''"))
 }
 
 #[cfg(test)]

@@ -144,6 +144,11 @@ pub(crate) fn exit_code(end: RunEnd) -> Result<ExitCode, CliError> {
     }
 }
 
+/// Parses numbers between commas, such as a pose; none if one of them is no finite number.
+pub(crate) fn finite_numbers(word: &str) -> Option<Vec<f64>> {
+    word.split(',').map(|part| part.trim().parse().ok().filter(|it: &f64| it.is_finite())).collect()
+}
+
 /// Parses a number above 0.
 pub(crate) fn positive(word: &str) -> Result<f64, String> {
     match word.parse::<f64>() {

@@ -16,7 +16,7 @@ use crate::description::describe;
 use crate::error::RunError;
 use crate::network::{GazeboConnection, GazeboSettings, Ros2Connection, Ros2Reach};
 use crate::nodes::{EstimatorRequest, Estimators, RobotProfile};
-use crate::page::{Page, PageSettings};
+use crate::page::{Page, PageContext, PageSettings};
 use crate::session::{SessionParts, SimulationSession};
 use crate::terminal;
 
@@ -297,10 +297,7 @@ impl SessionBuilder {
         services: &mut Services,
     ) -> Result<Option<Page>, RunError> {
         let Some(settings) = &self.page else { return Ok(None) };
-        services.show(simulation, settings.context().folders()).map_err(RunError::Display)?;
-        if let Some(file) = &settings.context().world_out {
-            services.write_world_to(simulation, file.clone()).map_err(RunError::Display)?;
-        }
+        show(services, simulation, settings.context())?;
         Ok(Page::open(simulation.graph(), settings)?)
     }
 }
@@ -317,4 +314,17 @@ fn record(
     } else {
         Ok(recorder)
     }
+}
+
+/// Starts what a page shows of a simulation: its models, and the file to which it may write the world.
+pub(crate) fn show(
+    services: &mut Services,
+    simulation: &Simulation,
+    context: &PageContext,
+) -> Result<(), RunError> {
+    services.show(simulation, context.folders()).map_err(RunError::Display)?;
+    if let Some(file) = &context.world_out {
+        services.write_world_to(simulation, file.clone()).map_err(RunError::Display)?;
+    }
+    Ok(())
 }

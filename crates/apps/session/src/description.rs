@@ -28,7 +28,8 @@ pub(crate) fn describe(
 }
 
 /// Adds the version of the program.
-pub(crate) fn with_version(mut facts: BTreeMap<String, String>) -> BTreeMap<String, String> {
+#[must_use]
+pub fn with_version(mut facts: BTreeMap<String, String>) -> BTreeMap<String, String> {
     facts.insert("periplus".to_owned(), env!("CARGO_PKG_VERSION").to_owned());
     facts
 }

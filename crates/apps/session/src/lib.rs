@@ -38,6 +38,7 @@ pub mod stop;
 pub mod terminal;
 
 pub use builder::{RecordingRequest, SessionBuilder};
+pub use description::with_version;
 pub use error::RunError;
 #[cfg(not(target_family = "wasm"))]
 pub use live::{LiveGraph, NodeMonitor, PollSleep};

@@ -7,7 +7,7 @@ use periplus_sim::{
     SnapshotError,
 };
 
-use crate::builder::RecordingRequest;
+use crate::builder::{RecordingRequest, show};
 use crate::error::RunError;
 #[cfg(not(target_family = "wasm"))]
 use crate::page::{Page, PageSettings};
@@ -83,20 +83,8 @@ impl SimulationSession {
     /// # Errors
     /// When the page or its displays cannot start.
     pub fn open_hub(&mut self, context: &PageContext) -> Result<PageHub, RunError> {
-        self.show(context)?;
+        show(&mut self.parts.services, &self.parts.simulation, context)?;
         Ok(PageHub::open(self.parts.simulation.graph(), context)?)
-    }
-
-    fn show(&mut self, context: &PageContext) -> Result<(), RunError> {
-        let parts = &mut self.parts;
-        parts.services.show(&parts.simulation, context.folders()).map_err(RunError::Display)?;
-        if let Some(file) = &context.world_out {
-            parts
-                .services
-                .write_world_to(&parts.simulation, file.clone())
-                .map_err(RunError::Display)?;
-        }
-        Ok(())
     }
 
     /// Serves the page, and returns its URL. A page that is open stays.
@@ -108,7 +96,7 @@ impl SimulationSession {
         if let Some(page) = &self.parts.page {
             return Ok(page.url());
         }
-        self.show(&settings.context)?;
+        show(&mut self.parts.services, &self.parts.simulation, &settings.context)?;
         let page = Page::serve(self.parts.simulation.graph(), settings)?;
         let url = page.url();
         self.parts.page = Some(page);

@@ -4,8 +4,10 @@
 
 use std::collections::BTreeMap;
 use std::io::{self, ErrorKind, Read, Seek, SeekFrom, Write};
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, RwLock};
+
+use periplus_resources::without_dots;
 
 /// Bytes of a file, shared by all that have it open.
 type Content = Arc<RwLock<Vec<u8>>>;
@@ -19,17 +21,7 @@ fn entries() -> MutexGuard<'static, BTreeMap<PathBuf, Option<Content>>> {
 
 /// Absolute path without `.` and `..`; relative paths start at `/`.
 pub(crate) fn plain(path: &Path) -> PathBuf {
-    let mut plain = PathBuf::from("/");
-    for component in path.components() {
-        match component {
-            Component::Normal(name) => plain.push(name),
-            Component::ParentDir => {
-                plain.pop();
-            }
-            Component::CurDir | Component::RootDir | Component::Prefix(_) => {}
-        }
-    }
-    plain
+    without_dots(&Path::new("/").join(path))
 }
 
 fn is_root(path: &Path) -> bool {

@@ -14,7 +14,7 @@ use periplus_graph::{
 };
 use periplus_os::{Machine, sleep, unix_ns};
 use periplus_resources::Host as _;
-use periplus_session::{LiveGraph, stop};
+use periplus_session::{LiveGraph, stop, with_version};
 
 use super::options::RecordOptions;
 use crate::error::CliError;
@@ -49,10 +49,7 @@ fn record(options: &RecordOptions, live: &mut LiveGraph) -> Result<(), BagError>
         ..RecordSettings::all(WriteSettings {
             // The name that rosbag2 gives to the recorder.
             ros_distro: Machine.variable("ROS_DISTRO").unwrap_or_default(),
-            custom_data: BTreeMap::from([(
-                "periplus".to_owned(),
-                env!("CARGO_PKG_VERSION").to_owned(),
-            )]),
+            custom_data: with_version(BTreeMap::new()),
             ..options.write.settings(&output, Storage::Mcap)
         })
     };

@@ -12,6 +12,7 @@ use periplus_session::nodes::{ParameterFile, amcl_parameters};
 
 use crate::error::CliError;
 use crate::log::LogOptions;
+use crate::run_options::finite_numbers;
 use crate::terminal;
 
 /// Localize a robot on a known map, from a log of laser scans or live
@@ -64,9 +65,7 @@ fn word(word: &str) -> Result<(String, String), String> {
 }
 
 fn pose(word: &str) -> Result<Pose2, String> {
-    let number = |word: &str| word.trim().parse().ok().filter(|it: &f64| it.is_finite());
-    let numbers: Option<Vec<f64>> = word.split(',').map(number).collect();
-    match numbers.as_deref() {
+    match finite_numbers(word).as_deref() {
         Some(&[x, y, yaw]) => Ok(Pose2::new(x, y, yaw)),
         _ => Err(format!("`{word}` is not a pose; write X,Y,YAW")),
     }

@@ -6,6 +6,8 @@ use clap::ValueEnum;
 use periplus_geometry::{DVec3, Pose, Rpy};
 use periplus_sim::BoundingBox;
 
+use crate::run_options::finite_numbers;
+
 /// Horizontal field of view of all pictures \[rad\].
 pub(super) const HORIZONTAL_FOV_RAD: f64 = 1.0;
 
@@ -48,11 +50,8 @@ impl View {
 pub(crate) struct Point(pub(super) DVec3);
 
 pub(super) fn point(word: &str) -> Result<Point, String> {
-    let numbers: Vec<f64> = word.split(',').filter_map(|part| part.trim().parse().ok()).collect();
-    match numbers[..] {
-        [x, y, z] if word.split(',').count() == 3 && numbers.iter().all(|it| it.is_finite()) => {
-            Ok(Point(DVec3::new(x, y, z)))
-        }
+    match finite_numbers(word).as_deref() {
+        Some(&[x, y, z]) => Ok(Point(DVec3::new(x, y, z))),
         _ => Err("expected X,Y,Z in metres, such as 2,-1,0.5".to_owned()),
     }
 }

@@ -92,10 +92,6 @@ impl VerbTool {
         arguments.map(|argument| (json_name(argument), argument))
     }
 
-    fn prints_json(&self) -> bool {
-        self.command.get_arguments().any(|argument| argument.get_long() == Some("json"))
-    }
-
     /// JSON schema of the arguments.
     fn schema(&self) -> Map<String, Value> {
         let mut properties = Map::new();
@@ -160,20 +156,14 @@ impl VerbTool {
         let mut positional = Vec::new();
         let mut prints_json = false;
         for (name, argument) in &known {
-            let value = match arguments.get(name) {
-                Some(Value::Null) | None => {
-                    // Reports for scripts are what a client can read best.
-                    let is_json = argument.get_long() == Some("json");
-                    if !is_json {
-                        continue;
-                    }
-                    &Value::Bool(true)
-                }
+            let is_json = argument.get_long() == Some("json");
+            let value = match arguments.get(name).filter(|value| !value.is_null()) {
                 Some(value) => value,
+                // Reports for scripts are what a client can read best.
+                None if is_json => &Value::Bool(true),
+                None => continue,
             };
-            if argument.get_long() == Some("json") {
-                prints_json = value == &Value::Bool(true);
-            }
+            prints_json |= is_json && value == &Value::Bool(true);
             let found = words_of(name, argument, value)?;
             if argument.is_positional() { positional.extend(found) } else { words.extend(found) }
         }
@@ -200,7 +190,6 @@ impl VerbTool {
                     format!("`{TIMEOUT_ARGUMENT}` is a number above 0 and at most {MAX_TIMEOUT_S}")
                 })?,
         };
-        debug_assert!(self.prints_json() || !prints_json, "only commands with `--json` print JSON");
         Ok(Call { words, timeout_s, prints_json })
     }
 }

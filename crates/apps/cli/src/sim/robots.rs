@@ -8,6 +8,7 @@ use periplus_sim::{PlacementPose, RobotPlacement};
 
 use crate::error::CliError;
 use crate::options::split;
+use crate::run_options::finite_numbers;
 
 /// Robots of a command line, in order.
 #[derive(Clone, Debug, Default)]
@@ -148,11 +149,7 @@ fn groups(matches: &ArgMatches, id: &str) -> Vec<(Vec<String>, usize)> {
 }
 
 fn standing(word: &str) -> Result<PlacementPose, String> {
-    let numbers: Option<Vec<f64>> = word
-        .split(',')
-        .map(|number| number.trim().parse().ok().filter(|number: &f64| number.is_finite()))
-        .collect();
-    match numbers.as_deref() {
+    match finite_numbers(word).as_deref() {
         Some(&[x, y]) => Ok(PlacementPose::OnGround([x, y, 0.0])),
         Some(&[x, y, yaw]) => Ok(PlacementPose::OnGround([x, y, yaw])),
         Some(&[x, y, z, roll, pitch, yaw]) => {

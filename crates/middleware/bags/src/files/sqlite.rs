@@ -14,6 +14,10 @@ mod times;
 #[cfg(not(target_family = "wasm"))]
 mod write;
 
+use std::collections::BTreeMap;
+
+use crate::BagTopic;
+
 #[cfg(target_family = "wasm")]
 pub(crate) use absent::{Database, DatabaseError, Rows, SqliteWriter, TimeTable};
 #[cfg(not(target_family = "wasm"))]
@@ -24,3 +28,14 @@ pub(crate) use rusqlite::Error as DatabaseError;
 pub(crate) use times::TimeTable;
 #[cfg(not(target_family = "wasm"))]
 pub(crate) use write::SqliteWriter;
+
+/// Content of a database.
+pub(crate) struct TimeSummary {
+    pub(crate) topics: Vec<BagTopic>,
+    /// Number of messages of each topic.
+    pub(crate) counts: Vec<u64>,
+    pub(crate) span_ns: Option<(i64, i64)>,
+    pub(crate) faults: Vec<String>,
+    pub(crate) ros_distro: String,
+    pub(crate) custom_data: BTreeMap<String, String>,
+}

@@ -1,10 +1,10 @@
 //! Databases in WebAssembly: none can be opened, since SQLite is written in C.
 
-use std::collections::BTreeMap;
 use std::convert::Infallible;
 use std::ops::{ControlFlow, Range};
 use std::path::Path;
 
+use super::TimeSummary;
 use crate::files::BagError;
 use crate::files::part::Part;
 use crate::files::write::WriteSettings;
@@ -46,15 +46,6 @@ impl Rows {
 }
 
 pub(crate) struct TimeTable(Infallible);
-
-pub(crate) struct TimeSummary {
-    pub(crate) topics: Vec<BagTopic>,
-    pub(crate) counts: Vec<u64>,
-    pub(crate) span_ns: Option<(i64, i64)>,
-    pub(crate) faults: Vec<String>,
-    pub(crate) ros_distro: String,
-    pub(crate) custom_data: BTreeMap<String, String>,
-}
 
 impl TimeTable {
     pub(crate) fn new(

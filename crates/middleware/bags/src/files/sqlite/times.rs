@@ -1,14 +1,12 @@
 //! Table of the times of a database, for random access.
 
-use std::collections::BTreeMap;
 use std::ops::{ControlFlow, Range};
 use std::path::PathBuf;
 
 use rusqlite::Connection;
 
 use super::read::{Database, is_corrupt};
-use super::rescue;
-use crate::BagTopic;
+use super::{TimeSummary, rescue};
 use crate::files::BagError;
 
 /// Rows copied per statement, after which progress is reported.
@@ -24,17 +22,6 @@ pub(crate) struct TimeTable {
 
 /// Number of messages of each topic, and the times of the first and last \[ns\].
 type TimeSum = (Vec<u64>, Option<(i64, i64)>);
-
-/// Content of a database.
-pub(crate) struct TimeSummary {
-    pub(crate) topics: Vec<BagTopic>,
-    /// Number of messages of each topic.
-    pub(crate) counts: Vec<u64>,
-    pub(crate) span_ns: Option<(i64, i64)>,
-    pub(crate) faults: Vec<String>,
-    pub(crate) ros_distro: String,
-    pub(crate) custom_data: BTreeMap<String, String>,
-}
 
 impl TimeTable {
     /// Reads the times. `report` gets the fraction that is done, and breaks to cancel.
