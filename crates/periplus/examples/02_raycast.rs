@@ -28,7 +28,7 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
 
     let lidar = DVec3::new(0.0, 0.0, 0.5);
     let direction = |index: u32| {
-        let (sine, cosine) = (TAU * f64::from(index) / f64::from(RAY_COUNT)).sin_cos();
+        let (sine, cosine) = libm::sincos(TAU * f64::from(index) / f64::from(RAY_COUNT));
         DVec3::new(cosine, sine, 0.0)
     };
     let hits: Vec<_> = (0..RAY_COUNT)

@@ -36,7 +36,7 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     println!("map of {} by {} cells, {occupied} occupied", map.info.width, map.info.height);
     println!("the robot is at {x_m:.3}, {y_m:.3}");
     // The drive ends where it began, within the tolerance of its last goal; odometry alone is 0.2 m off.
-    assert!(x_m.hypot(y_m) < 0.1, "{x_m}, {y_m}");
+    assert!(libm::hypot(x_m, y_m) < 0.1, "{x_m}, {y_m}");
     assert!((300..1500).contains(&occupied), "{occupied} occupied cells");
     Ok(())
 }

@@ -39,7 +39,7 @@ impl Planner for StraightLine {
     fn plan(&mut self, request: PlanRequest<'_>) -> Result<PlannedPath, PlanError> {
         let (start, goal, costs) = (request.start, request.goal, request.costmap.costs);
         let (dx_m, dy_m) = (goal.x_m - start.x_m, goal.y_m - start.y_m);
-        let (length_m, yaw_rad) = (dx_m.hypot(dy_m), dy_m.atan2(dx_m));
+        let (length_m, yaw_rad) = (libm::hypot(dx_m, dy_m), libm::atan2(dy_m, dx_m));
         let count = (length_m / self.step_m).ceil().max(1.0);
         let at = |part: f64| (start.x_m + part * dx_m, start.y_m + part * dy_m);
         for cell in 0..=(length_m / costs.resolution_m()) as u32 {

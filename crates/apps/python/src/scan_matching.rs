@@ -263,7 +263,7 @@ fn scan_search(
     let reference = present(reference_points, "reference_points")?;
     let points = present(points, "points")?;
     let reach = |points: &[[f32; 2]], x_m: f64, y_m: f64| {
-        let from = |[x, y]: &[f32; 2]| (f64::from(*x) - x_m).hypot(f64::from(*y) - y_m);
+        let from = |[x, y]: &[f32; 2]| libm::hypot(f64::from(*x) - x_m, f64::from(*y) - y_m);
         points.iter().map(from).fold(0.0, f64::max)
     };
     let reach_m = reach(&points, 0.0, 0.0);
@@ -344,8 +344,9 @@ const MAX_RANGE_M: f32 = 1e6;
 
 /// Median angle between the bearings of consecutive beams, negative for clockwise scans.
 fn usual_step_rad(beams: &[Option<[f32; 2]>], origin: [f32; 2]) -> f64 {
-    let bearing =
-        |point: [f32; 2]| f64::from(point[1] - origin[1]).atan2(f64::from(point[0] - origin[0]));
+    let bearing = |point: [f32; 2]| {
+        libm::atan2(f64::from(point[1] - origin[1]), f64::from(point[0] - origin[0]))
+    };
     let mut steps: Vec<f64> = beams
         .windows(2)
         .filter_map(|pair| Some(normalize_angle(bearing(pair[1]?) - bearing(pair[0]?))))

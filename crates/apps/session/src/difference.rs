@@ -227,7 +227,7 @@ pub fn compare_tracks(
         .iter()
         .filter_map(|(time_ns, pose)| {
             let other = pose_at(second, time_ns + offset_ns)?;
-            let distance_m = (pose.x_m - other.x_m).hypot(pose.y_m - other.y_m);
+            let distance_m = libm::hypot(pose.x_m - other.x_m, pose.y_m - other.y_m);
             Some(((time_ns - start_ns) as f64 * 1e-9, distance_m))
         })
         .collect();

@@ -153,7 +153,7 @@ fn ring(info: &GridInfo, every: usize, x_m: f64, y_m: f64) -> Vec<Dot> {
     let mut dots = Vec::new();
     for from_below in around(y, height) {
         for column in around(x, width) {
-            let away = (column as f64 + 0.5 - x).hypot(from_below as f64 + 0.5 - y);
+            let away = libm::hypot(column as f64 + 0.5 - x, from_below as f64 + 0.5 - y);
             if (away - radius).abs() <= HALF_LINE_WIDTH_PX {
                 let row = number(height - 1 - from_below);
                 dots.push(Dot { row, column: number(column), step: RING_ORDER });

@@ -31,7 +31,7 @@ pub fn of_scan(scan: &LaserScan) -> Vec<u8> {
         let angle = f64::from(scan.angle_min) + beam as f64 * f64::from(scan.angle_increment);
         let is_hit = range.is_finite() && *range <= scan.range_max && *range >= scan.range_min;
         let length = if is_hit { f64::from(*range) } else { reach_m };
-        (pixel(length * angle.cos(), length * angle.sin()), is_hit)
+        (pixel(length * libm::cos(angle), length * libm::sin(angle)), is_hit)
     });
     let beams: Vec<_> = beams.collect();
     for (end, _) in &beams {

@@ -136,11 +136,12 @@ fn random_walk(points: &[AllanPoint], noise_density: f64) -> Option<Estimated> {
         })
     };
     let walks: Vec<(f64, f64)> = points.iter().filter_map(walk).filter(|it| it.1 > 0.0).collect();
-    let weight: f64 = walks.iter().map(|it| it.1.powi(-2)).sum();
+    let weight: f64 = walks.iter().map(|it| libm::pow(it.1, -2.0)).sum();
     if weight <= 0.0 {
         return None;
     }
-    let value = walks.iter().map(|(value, error)| value * error.powi(-2)).sum::<f64>() / weight;
+    let value =
+        walks.iter().map(|(value, error)| value * libm::pow(*error, -2.0)).sum::<f64>() / weight;
     // Overlapping averages of neighbouring times are of the same samples: the best one's error counts.
     let standard_error = walks.iter().map(|it| it.1).fold(f64::INFINITY, f64::min);
     Some(Estimated { value, standard_error })

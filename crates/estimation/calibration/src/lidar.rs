@@ -140,7 +140,8 @@ pub fn range_bias(scans: &[LaserScan2], noise: &LidarNoise) -> Option<Estimated>
             let Some(window) = bent_line(beams, bias_m) else { continue };
             let freedom = beams.len().saturating_sub(3) as f64;
             // Upper 99.9 % quantile of the normal approximation.
-            let limit = noise.std_m.value.powi(2) * (freedom + 3.1 * (2.0 * freedom).sqrt());
+            let limit =
+                noise.std_m.value * noise.std_m.value * (freedom + 3.1 * (2.0 * freedom).sqrt());
             if window.squares <= limit {
                 normal += window.normal;
                 right += window.right;
@@ -152,7 +153,7 @@ pub fn range_bias(scans: &[LaserScan2], noise: &LidarNoise) -> Option<Estimated>
             return None;
         }
         bias_m += right / normal;
-        let variance = noise.std_m.value.powi(2);
+        let variance = noise.std_m.value * noise.std_m.value;
         // Without the part of the change of this round.
         scatter_ratio = (scatter - right * right / normal) / (variance * count);
         // Windows overlap by three quarters.

@@ -83,7 +83,7 @@ const NOMINAL: DifferentialDrive =
 
 /// Range along a ray \[m\].
 fn cast(x: f64, y: f64, angle_rad: f64) -> f64 {
-    let (v, u) = angle_rad.sin_cos();
+    let (v, u) = libm::sincos(angle_rad);
     let hit = |[ax, ay, bx, by]: &[f64; 4]| {
         let (ex, ey) = (bx - ax, by - ay);
         let cross = u * ey - v * ex;
@@ -167,7 +167,7 @@ fn record(
 
 /// Curves to both sides, turns on the spot, forward and backward.
 fn varied(time_s: f64) -> (f64, f64) {
-    (0.35 * (0.5 * time_s).cos(), 0.9 * (1.3 * time_s).sin() + 0.3 * (0.37 * time_s).cos())
+    (0.35 * libm::cos(0.5 * time_s), 0.9 * libm::sin(1.3 * time_s) + 0.3 * libm::cos(0.37 * time_s))
 }
 
 fn calibrate(recording: &Recording) -> Result<DriveCalibration, CalibrationError> {
@@ -254,7 +254,7 @@ fn gyroscopes_of_ten_robots_are_recovered() {
 #[test]
 fn what_a_drive_without_stops_and_turns_does_not_show_is_named() {
     let robot = Robot::random(4);
-    let recording = record(&robot, 20.0, 0, |time_s| (0.3 * (0.7 * time_s).sin(), 0.0));
+    let recording = record(&robot, 20.0, 0, |time_s| (0.3 * libm::sin(0.7 * time_s), 0.0));
     let displacements = displacements(&recording);
     let track = Some(&recording.track);
     let imu = calibrate_imu(&recording.imu, track, &displacements, 0.0, 0.2).unwrap();
@@ -294,7 +294,7 @@ fn standard_errors_are_those_of_repeated_drives() {
             (found.scanner_yaw_rad, robot.scanner.yaw_rad),
             (found.delay_s, robot.delay_s),
         ] {
-            squares.push(((found.value - expected) / found.standard_error).powi(2));
+            squares.push(libm::pow((found.value - expected) / found.standard_error, 2.0));
         }
     }
     let mean = squares.iter().sum::<f64>() / squares.len() as f64;
@@ -304,7 +304,7 @@ fn standard_errors_are_those_of_repeated_drives() {
 #[test]
 fn a_straight_drive_does_not_determine_the_mount() {
     let robot = Robot::random(5);
-    let recording = record(&robot, 20.0, 0, |time_s| (0.3 * (0.7 * time_s).sin(), 0.0));
+    let recording = record(&robot, 20.0, 0, |time_s| (0.3 * libm::sin(0.7 * time_s), 0.0));
     let error = calibrate(&recording).unwrap_err();
     assert!(matches!(error, CalibrationError::NotObservable(_)), "{error:?}");
     assert!(error.to_string().contains("turn on the spot"), "{error}");
@@ -315,7 +315,7 @@ fn turns_on_the_spot_do_not_determine_the_yaw_of_a_scanner_in_the_centre() {
     let mut robot = Robot::random(6);
     robot.scanner = Pose2::new(0.0, 0.0, 0.1);
     robot.range_bias_m = 0.0;
-    let recording = record(&robot, 20.0, 0, |time_s| (0.0, 0.8 * (0.9 * time_s).sin()));
+    let recording = record(&robot, 20.0, 0, |time_s| (0.0, 0.8 * libm::sin(0.9 * time_s)));
     let Err(CalibrationError::NotObservable(missing)) = calibrate(&recording) else {
         panic!("a turn on the spot has no direction");
     };

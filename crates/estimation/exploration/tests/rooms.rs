@@ -158,7 +158,7 @@ fn a_whole_room_is_seen() {
     for step in 0..3000_i64 {
         for index in 0..map.cells.len() {
             let (x, y) = truth.info.centre_of(truth.info.cell(index));
-            if (x - pose.x_m).hypot(y - pose.y_m) < 0.8 {
+            if libm::hypot(x - pose.x_m, y - pose.y_m) < 0.8 {
                 map.cells[index] = truth.cells[index];
             }
         }
@@ -167,14 +167,14 @@ fn a_whole_room_is_seen() {
         }
         let velocity = explorer.drive(step * 50_000_000, pose, 9.0);
         pose.yaw_rad += velocity.left_rad_s * 0.05;
-        pose.x_m += velocity.forward_m_s * 0.05 * pose.yaw_rad.cos();
-        pose.y_m += velocity.forward_m_s * 0.05 * pose.yaw_rad.sin();
+        pose.x_m += velocity.forward_m_s * 0.05 * libm::cos(pose.yaw_rad);
+        pose.y_m += velocity.forward_m_s * 0.05 * libm::sin(pose.yaw_rad);
         let (column, row) = truth.info.cell_of(pose.x_m, pose.y_m).expect("inside");
         assert_eq!(*truth.get((column, row)).expect("a cell"), 0, "it drove into a wall");
         if explorer.mood() == Mood::Done {
             let unseen = truth.cells.iter().zip(&map.cells).filter(|(t, m)| **t == 0 && **m != 0);
             assert!(unseen.count() <= 4, "corners only");
-            assert!((pose.x_m - 0.45).hypot(pose.y_m - 0.45) < 0.2, "home again");
+            assert!(libm::hypot(pose.x_m - 0.45, pose.y_m - 0.45) < 0.2, "home again");
             return;
         }
     }
@@ -210,9 +210,9 @@ proptest! {
         for _ in 0..1500 {
             let velocity = follow(&mut way, pose, most);
             pose.yaw_rad += velocity.left_rad_s * 0.05;
-            pose.x_m += velocity.forward_m_s * 0.05 * pose.yaw_rad.cos();
-            pose.y_m += velocity.forward_m_s * 0.05 * pose.yaw_rad.sin();
+            pose.x_m += velocity.forward_m_s * 0.05 * libm::cos(pose.yaw_rad);
+            pose.y_m += velocity.forward_m_s * 0.05 * libm::sin(pose.yaw_rad);
         }
-        prop_assert!((pose.x_m - x).hypot(pose.y_m - y) < 0.15, "{pose:?}");
+        prop_assert!(libm::hypot(pose.x_m - x, pose.y_m - y) < 0.15, "{pose:?}");
     }
 }

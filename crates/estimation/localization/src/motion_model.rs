@@ -195,7 +195,7 @@ mod tests {
         let count = particles.len() as f64;
         let moments = |values: &[f64]| {
             let mean = values.iter().sum::<f64>() / count;
-            let variance = values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / count;
+            let variance = values.iter().map(|v| libm::pow(v - mean, 2.0)).sum::<f64>() / count;
             (mean, variance.sqrt())
         };
         let (x, y, yaw) =

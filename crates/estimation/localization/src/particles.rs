@@ -179,7 +179,7 @@ mod tests {
         assert_eq!((mean.x_m, mean.y_m), (1e6, 0.0));
         assert!((mean.yaw_rad.abs() - std::f64::consts::PI).abs() < 1e-12);
         assert!((spread.xx - 1.0).abs() < 1e-12 && spread.yy == 0.0);
-        assert!((spread.yaw - 0.041_58_f64.powi(2)).abs() < 1e-5, "{spread:?}");
+        assert!((spread.yaw - libm::pow(0.041_58_f64, 2.0)).abs() < 1e-5, "{spread:?}");
     }
 
     #[test]

@@ -157,7 +157,7 @@ fn odometry_that_never_moves_is_none() {
     let truth = (begin.inverse() * last).normalized();
     let off = |found: Pose2, from: Pose2| {
         let found = from.inverse() * found;
-        (found.x_m - truth.x_m).hypot(found.y_m - truth.y_m)
+        libm::hypot(found.x_m - truth.x_m, found.y_m - truth.y_m)
     };
     assert!(off(still, start) < 0.1, "{}", off(still, start));
     assert!(off(blind, Pose2::IDENTITY) < 0.1, "{}", off(blind, Pose2::IDENTITY));
@@ -186,7 +186,7 @@ fn a_carried_robot_begins_a_piece_that_closures_join() {
     let is_unjoined = diagnostics.iter().any(|it| matches!(it, RemarkKind::Disconnected(_)));
     let truth = moments[0].truth.inverse() * moments[moments.len() - 1].truth;
     let found = moments[0].odometry.inverse() * slam.map_from_base();
-    let off_m = (found.x_m - truth.x_m).hypot(found.y_m - truth.y_m);
+    let off_m = libm::hypot(found.x_m - truth.x_m, found.y_m - truth.y_m);
     assert!(off_m < 0.15 && !is_unjoined, "{off_m} {diagnostics:?} {:?}", slam.closures());
 }
 

@@ -173,7 +173,7 @@ mod tests {
             let corners: Vec<[f64; 3]> = (0u32..)
                 .zip(&radii)
                 .map(|(i, r)| {
-                    let (sin, cos) = (f64::from(i) * step).sin_cos();
+                    let (sin, cos) = libm::sincos(f64::from(i) * step);
                     (plane * DVec3::new(r * cos, r * sin, 2.0)).to_array()
                 })
                 .collect();
@@ -182,7 +182,7 @@ mod tests {
             let area = |[a, b, c]: [DVec3; 3]| (plane.inverse() * (b - a).cross(c - a)).z / 2.0;
             let areas = triangles.iter().map(|t| area(t.map(|i| corners[i].into())));
             let n = radii.len();
-            let whole: f64 = (0..n).map(|i| radii[i] * radii[(i + 1) % n] * step.sin() / 2.0).sum();
+            let whole: f64 = (0..n).map(|i| radii[i] * radii[(i + 1) % n] * libm::sin(step) / 2.0).sum();
             let (mut total, mut least) = (0.0, f64::INFINITY);
             for area in areas {
                 total += area;

@@ -110,7 +110,7 @@ fn divide_ints(a: i128, b: i128) -> Outcome<f64> {
     if remainder != 0 {
         quotient |= 1;
     }
-    let magnitude = quotient as f64 * 2.0_f64.powi(-scale);
+    let magnitude = quotient as f64 * libm::pow(2.0_f64, f64::from(-scale));
     Ok(if (a < 0) == (b < 0) { magnitude } else { -magnitude })
 }
 
@@ -130,7 +130,7 @@ pub(super) fn power(a: Number, b: Number) -> Outcome<Number> {
             "a negative number to a broken power is complex, and complex numbers are not supported",
         );
     }
-    let result = base.powf(exponent);
+    let result = crate::maths::powf(base, exponent);
     if result.is_infinite() && base.is_finite() && exponent.is_finite() {
         return fail("the result is too large for a float");
     }

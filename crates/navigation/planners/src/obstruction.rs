@@ -83,15 +83,16 @@ fn flood(costmap: &Costmap, start: Cell, passable: Passable) -> Vec<bool> {
 }
 
 fn nearest_reached(info: &GridInfo, reached: &[bool], goal: Pose2) -> Option<ReachablePose> {
-    let distance = |index: usize| {
+    let squared_distance = |index: usize| {
         let (x_m, y_m) = info.centre_of(info.cell(index));
-        (x_m - goal.x_m).powi(2) + (y_m - goal.y_m).powi(2)
+        let (dx_m, dy_m) = (x_m - goal.x_m, y_m - goal.y_m);
+        dx_m * dx_m + dy_m * dy_m
     };
     let indices = reached.iter().enumerate().filter(|(_, reached)| **reached);
     let index = indices
         .map(|(index, _)| index)
-        .min_by(|left, right| distance(*left).total_cmp(&distance(*right)))?;
+        .min_by(|left, right| squared_distance(*left).total_cmp(&squared_distance(*right)))?;
     let (x_m, y_m) = info.centre_of(info.cell(index));
     let pose = Pose2 { x_m, y_m, ..goal };
-    Some(ReachablePose { pose, distance_m: distance(index).sqrt() })
+    Some(ReachablePose { pose, distance_m: squared_distance(index).sqrt() })
 }

@@ -113,7 +113,7 @@ fn a_car_drives_few_strokes_where_cusps_cost() {
         let cost = match room_m {
             ..0.0 => 254,
             ..0.14 => 253,
-            _ => (252.0 * (-3.0 * (room_m - 0.14)).exp()) as u8,
+            _ => (252.0 * libm::exp(-3.0 * (room_m - 0.14))) as u8,
         };
         map.set((column, row), cost);
     }

@@ -163,7 +163,7 @@ proptest! {
                 let cell = map.info().cell(index);
                 let Some(potential) = part.potential(cell) else { continue };
                 let (dx, dy) = (cell.0.abs_diff(goal.0) as f32, cell.1.abs_diff(goal.1) as f32);
-                let rest = 49.5 * dx.hypot(dy);
+                let rest = 49.5 * libm::hypotf(dx, dy);
                 if part.potential(goal).is_some_and(|goal| potential + rest < goal) {
                     prop_assert!(is_near(Some(potential), whole.potential(cell)), "{cell:?}");
                 }

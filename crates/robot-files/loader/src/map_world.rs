@@ -85,7 +85,7 @@ fn floor(map: &OccupancyGrid, text: &mut String) {
     #[expect(clippy::cast_precision_loss, reason = "cells are below 2^28")]
     let middle = map.info.point_at(map.info.width as f64 / 2.0, map.info.height as f64 / 2.0);
     // Large enough for any yaw.
-    let side = (width_m.hypot(height_m) + 2.0 * FLOOR_MARGIN_M).ceil();
+    let side = (libm::hypot(width_m, height_m) + 2.0 * FLOOR_MARGIN_M).ceil();
     let plane = format!(
         "<geometry><plane><normal>0 0 1</normal><size>{0} {0}</size></plane></geometry>",
         format_number(side)
@@ -174,7 +174,7 @@ mod tests {
             .collect();
         let from = [1.23, 1.31];
         for beam in 0..360 {
-            let (sine, cosine) = (f64::from(beam) + 0.3).to_radians().sin_cos();
+            let (sine, cosine) = libm::sincos((f64::from(beam) + 0.3).to_radians());
             let range_m = range_to_boxes_m(&boxes, from, [cosine, sine]);
             let steps = (0..).map(|step| f64::from(step) * 0.001);
             let is_hit = |along: &f64| {

@@ -141,9 +141,12 @@ pub(crate) fn boolean_word(
     }
 }
 
+/// Every whole number up to 2 to the power of 53 is a double.
+const LARGEST_INTEGER: f64 = 9_007_199_254_740_992.0;
+
 pub(crate) fn integer(element: &Element, diagnostics: &mut Diagnostics) -> Option<i64> {
     let value = number(element, diagnostics)?;
-    if value.fract() != 0.0 && value.abs() <= 2f64.powi(53) {
+    if value.fract() != 0.0 && value.abs() <= LARGEST_INTEGER {
         // Libsdformat ignores characters after the digits too (`std::stoul`).
         diagnostics.push(
             Diagnostic::warning(
@@ -157,7 +160,7 @@ pub(crate) fn integer(element: &Element, diagnostics: &mut Diagnostics) -> Optio
             )
             .at(element.text_origin()),
         );
-    } else if value.fract() != 0.0 || value.abs() > 2f64.powi(53) {
+    } else if value.fract() != 0.0 || value.abs() > LARGEST_INTEGER {
         diagnostics.push(
             Diagnostic::error(
                 "not-a-whole-number",

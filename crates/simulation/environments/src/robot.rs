@@ -284,7 +284,7 @@ mod tests {
     #[test]
     fn beams_of_a_full_turn_do_not_repeat() {
         let full = robot(|it| it.lidar_beams = 4).expect("a robot");
-        let near = |[x, y]: [f64; 2], [a, b]: [f64; 2]| (x - a).hypot(y - b) < 1e-12;
+        let near = |[x, y]: [f64; 2], [a, b]: [f64; 2]| libm::hypot(x - a, y - b) < 1e-12;
         let expected = [[-1.0, 0.0], [0.0, -1.0], [1.0, 0.0], [0.0, 1.0]];
         assert!(full.beams.iter().zip(expected).all(|(a, b)| near(*a, b)), "{:?}", full.beams);
         let half = robot(|it| {

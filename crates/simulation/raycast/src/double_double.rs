@@ -87,7 +87,7 @@ mod tests {
     fn what_an_f64_loses_is_kept() {
         let tiny = DoubleDouble::sum(1.0, 1e-20).sub(DoubleDouble::of(1.0));
         assert_eq!((tiny.high, tiny.low), (1e-20, 0.0));
-        let e = 2f64.powi(-30);
+        let e = libm::pow(2f64, -30.0);
         // (1 + e)(1 - e) - 1 = -e²
         let rest = DoubleDouble::product(1.0 + e, 1.0 - e).sub(DoubleDouble::of(1.0));
         assert_eq!(rest.high, -e * e);

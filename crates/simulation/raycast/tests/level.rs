@@ -49,7 +49,7 @@ fn fans(seed: u64, height_m: f64, beams: u32, rise: f64) -> Vec<Ray> {
         let origin = DVec3::new(number(), number(), height_m);
         for beam in 0..beams {
             let angle = f64::from(beam) * std::f64::consts::TAU / f64::from(beams);
-            let ray = Ray::new(origin, DVec3::new(angle.cos(), angle.sin(), rise));
+            let ray = Ray::new(origin, DVec3::new(libm::cos(angle), libm::sin(angle), rise));
             rays.push(Ray { max_m: if beam % 11 == 10 { 3.0 } else { ray.max_m }, ..ray });
         }
     }

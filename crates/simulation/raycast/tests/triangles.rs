@@ -283,7 +283,7 @@ fn equal_triangles_by_the_thousand_still_make_a_tree() {
     // Each twice the one before: splits that take off one at a time.
     let mut solid = Solid::default();
     for number in 0..120_u32 {
-        let size = 2f64.powi(i32::try_from(number).unwrap() / 4 - 15);
+        let size = libm::pow(2f64, f64::from(i32::try_from(number).unwrap() / 4 - 15));
         for (x, y) in [(1.0, 0.0), (2.0, 0.0), (1.0, 1.0)] {
             solid.positions_m.push([x * size, y * size, size]);
         }

@@ -46,12 +46,12 @@ fn ball(rings: u32, sectors: u32, radius: f64, shift: DVec3) -> Solid {
     };
     push(&mut solid, DVec3::Z);
     for ring in 1..rings {
-        let (s, c) = (std::f64::consts::PI * f64::from(ring) / f64::from(rings)).sin_cos();
+        let (s, c) = libm::sincos(std::f64::consts::PI * f64::from(ring) / f64::from(rings));
         for sector in 0..sectors {
             let rotate_into_world = std::f64::consts::TAU * f64::from(sector) / f64::from(sectors);
             push(
                 &mut solid,
-                DVec3::new(s * rotate_into_world.cos(), s * rotate_into_world.sin(), c),
+                DVec3::new(s * libm::cos(rotate_into_world), s * libm::sin(rotate_into_world), c),
             );
         }
     }

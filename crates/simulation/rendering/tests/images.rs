@@ -81,7 +81,7 @@ fn depth_is_that_of_the_pinhole_formula() {
         &request(&lens, ImageOutputs { depth: true, ..ImageOutputs::default() }, 1),
         &mut picture,
     );
-    let focal = f64::from(width) / 2.0 / (fov / 2.0).tan();
+    let focal = f64::from(width) / 2.0 / libm::tan(fov / 2.0);
     let mut of_ball = 0;
     for row in 0..height {
         for column in 0..width {

@@ -290,7 +290,9 @@ mod tests {
         let mut moon = SphericalCoordinates { surface_model: "MOON_SCS".into(), ..ned };
         let position = LocalTangentFrame::new(&moon).unwrap().position(DVec3::X * 1000.0);
         assert!(
-            (position.latitude_rad - 1000.0 / (1_736_000.0_f64.powi(2) / 1_738_100.0)).abs() < 1e-6
+            (position.latitude_rad - 1000.0 / (libm::pow(1_736_000.0_f64, 2.0) / 1_738_100.0))
+                .abs()
+                < 1e-6
         );
         moon.surface_model = "CUSTOM_SURFACE".into();
         assert!(LocalTangentFrame::new(&moon).is_err());

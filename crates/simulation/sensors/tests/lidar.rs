@@ -82,8 +82,8 @@ fn sphere(middle: DVec3, radius_m: f64, direction: DVec3) -> Option<f64> {
 }
 
 fn direction(azimuth: f64, elevation: f64) -> DVec3 {
-    let (up, out) = elevation.sin_cos();
-    DVec3::new(out * azimuth.cos(), out * azimuth.sin(), up)
+    let (up, out) = libm::sincos(elevation);
+    DVec3::new(out * libm::cos(azimuth), out * libm::sin(azimuth), up)
 }
 
 #[test]
@@ -101,7 +101,7 @@ fn a_sphere_by_16_360_and_1440_beams() {
 fn a_room_by_16_360_and_1440_beams() {
     let room = world(&[(RaycastShape::Box { size_m: DVec3::new(8.0, 8.0, 3.0) }, Pose::IDENTITY)]);
     for samples in [16, 360, 1440] {
-        check(&flat(samples), &room, |a, _| Some(4.0 / a.cos().abs().max(a.sin().abs())));
+        check(&flat(samples), &room, |a, _| Some(4.0 / libm::cos(a).abs().max(libm::sin(a).abs())));
     }
 }
 
@@ -109,13 +109,13 @@ fn a_room_by_16_360_and_1440_beams() {
 #[test]
 fn a_wall_at_an_angle() {
     let tilt = 0.4_f64;
-    let (x, y) = (2.0 * tilt.cos(), 2.0 * tilt.sin());
+    let (x, y) = (2.0 * libm::cos(tilt), 2.0 * libm::sin(tilt));
     let pose = turned([x, y, 0.0], 0.0, std::f64::consts::FRAC_PI_2, 0.0);
     let pose = Pose { rotation: turned([0.0; 3], 0.0, 0.0, tilt).rotation * pose.rotation, ..pose };
     let world = world(&[(RaycastShape::Plane { size_m: None }, pose)]);
     for samples in [16, 360, 1440] {
         check(&flat(samples), &world, |a, _| {
-            let distance = 2.0 / (a - tilt).cos();
+            let distance = 2.0 / libm::cos(a - tilt);
             (distance > 0.0 && distance < 30.0).then_some(distance)
         });
     }
@@ -131,10 +131,10 @@ fn a_column_and_the_floor_by_64_by_1024() {
     let pi = std::f64::consts::PI;
     let spec = spec(axis(1024, -pi, pi), axis(64, -0.4, 0.3));
     check(&spec, &world, |azimuth, elevation| {
-        let floor = (elevation < 0.0).then(|| -1.0 / elevation.sin());
+        let floor = (elevation < 0.0).then(|| -1.0 / libm::sin(elevation));
         // In the plane, a circle; then along the slope.
         let flat = sphere(DVec3::X * 2.0, 0.5, direction(azimuth, 0.0));
-        let column = flat.map(|distance| distance / elevation.cos());
+        let column = flat.map(|distance| distance / libm::cos(elevation));
         let nearest = floor.into_iter().chain(column).fold(f64::INFINITY, f64::min);
         (nearest < 30.0).then_some(nearest)
     });
@@ -222,7 +222,7 @@ fn noise_stays_within_the_range_and_leaves_infinities() {
     let noisy = ranges(&mut lidar, &world, Pose::IDENTITY);
     let mut off = Vec::new();
     for (range, [azimuth, _]) in noisy.iter().zip(lidar.beams().range_angles()) {
-        let distance = 2.0 / azimuth.cos();
+        let distance = 2.0 / libm::cos(azimuth);
         if distance > 0.0 && distance < 29.0 {
             off.push(f64::from(*range) - distance);
         } else if !(0.0..=30.0).contains(&distance) {

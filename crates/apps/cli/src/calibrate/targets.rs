@@ -278,7 +278,7 @@ fn push(found: &mut Targets, name: &str, place: Option<Place>, value: f64, stand
 
 /// Weighted mean of two values.
 fn mean(a: Estimated, b: Estimated) -> Estimated {
-    let variance = a.standard_error.powi(2) + b.standard_error.powi(2);
+    let variance = libm::pow(a.standard_error, 2.0) + libm::pow(b.standard_error, 2.0);
     Estimated { value: 0.5 * (a.value + b.value), standard_error: 0.5 * variance.sqrt() }
 }
 

@@ -38,8 +38,9 @@ pub(super) fn of(
     }
     let truth = run.simulation.robot_pose().map(Pose2::from);
     if let (Some(explorer), Some(truth)) = (explorer, truth) {
-        let error_m =
-            explorer.map_from_base.map(|pose| (pose.x_m - truth.x_m).hypot(pose.y_m - truth.y_m));
+        let error_m = explorer
+            .map_from_base
+            .map(|pose| libm::hypot(pose.x_m - truth.x_m, pose.y_m - truth.y_m));
         report["exploration"] = json!({
             "state": format!("{:?}", explorer.mood()).to_lowercase(),
             "driven_m": explorer.driven_m,

@@ -114,7 +114,7 @@ fn localize(amcl: &mut Amcl, log: &Log) -> Outcome {
         };
         if let Some(before) = before.replace(odom_from_base) {
             let moved = before.inverse() * odom_from_base;
-            way_m += moved.x_m.hypot(moved.y_m);
+            way_m += libm::hypot(moved.x_m, moved.y_m);
         }
         let one = Stopwatch::start();
         match amcl.update(odom_from_base, &logged.scan) {

@@ -124,6 +124,6 @@ impl Report<'_> {
 
     fn path_m(&self) -> f64 {
         let poses = self.outcome.trajectory.windows(2);
-        poses.map(|it| (it[1].1.x_m - it[0].1.x_m).hypot(it[1].1.y_m - it[0].1.y_m)).sum()
+        poses.map(|it| libm::hypot(it[1].1.x_m - it[0].1.x_m, it[1].1.y_m - it[0].1.y_m)).sum()
     }
 }

@@ -61,7 +61,7 @@ pub(super) fn whole(bounds: &BoundingBox, view: View, aspect: f64) -> Pose {
     let (pitch, yaw) = view.direction();
     let rotation = Pose::from_xyz_rpy([0.0; 3], Rpy { roll: 0.0, pitch, yaw }).rotation;
     let half_m = (bounds.high_m - bounds.low_m) / 2.0;
-    let across = (HORIZONTAL_FOV_RAD / 2.0).tan();
+    let across = libm::tan(HORIZONTAL_FOV_RAD / 2.0);
     let slopes = [across, across * aspect];
     // The camera is far enough if each corner is inside both angles of view: with a corner at (x, y, z) in its frame
     // about the centre of the bounds, at the distance d: |y| <= (d + x) tan, so d >= |y| / tan - x.
@@ -84,8 +84,8 @@ pub(super) fn at(from_m: DVec3, to_m: DVec3) -> Option<Pose> {
     if along.length() < 1e-9 {
         return None;
     }
-    let yaw = along.y.atan2(along.x);
-    let pitch = -along.z.atan2(along.x.hypot(along.y));
+    let yaw = libm::atan2(along.y, along.x);
+    let pitch = -libm::atan2(along.z, libm::hypot(along.x, along.y));
     Some(Pose::from_xyz_rpy(from_m.to_array(), Rpy { roll: 0.0, pitch, yaw }))
 }
 
@@ -102,7 +102,7 @@ mod tests {
         let camera = whole(&CUBE, View::Front, 1.0);
         // The near face, at x = 1, is 2 m wide and has to be 1 / tan(0.5) away: 1.83 m, with a margin of a tenth of
         // the whole distance.
-        let expected_m = 1.1 * (1.0 + 1.0 / 0.5_f64.tan());
+        let expected_m = 1.1 * (1.0 + 1.0 / libm::tan(0.5_f64));
         assert!((camera.translation - DVec3::new(expected_m, 0.0, 1.0)).length() < 1e-9);
         let ahead = camera.rotation * DVec3::X;
         assert!((ahead - DVec3::NEG_X).length() < 1e-9, "{ahead}");
@@ -118,8 +118,11 @@ mod tests {
                 };
                 let position = DVec3::new(pick(0), pick(1), pick(2));
                 let seen = camera.rotation.inverse() * (position - camera.translation);
-                assert!(seen.x > 0.0 && seen.y.abs() < 0.5_f64.tan() * seen.x, "{view:?}: {seen}");
-                assert!(seen.z.abs() < 0.5 * 0.5_f64.tan() * seen.x, "{view:?}: {seen}");
+                assert!(
+                    seen.x > 0.0 && seen.y.abs() < libm::tan(0.5_f64) * seen.x,
+                    "{view:?}: {seen}"
+                );
+                assert!(seen.z.abs() < 0.5 * libm::tan(0.5_f64) * seen.x, "{view:?}: {seen}");
             }
         }
     }

@@ -179,7 +179,7 @@ impl Axis {
     fn of(low: f64, high: f64) -> Self {
         let (low, high) = if high > low { (low, high) } else { (low, low + 1.0) };
         let raw = (high - low) / TICK_COUNT;
-        let magnitude = 10_f64.powf(raw.log10().floor());
+        let magnitude = libm::pow(10_f64, libm::log10(raw).floor());
         let step = [1.0, 2.0, 5.0, 10.0].into_iter().find(|it| it * magnitude >= raw);
         let step = step.unwrap_or(10.0) * magnitude;
         Self { low, high, step }
@@ -196,7 +196,7 @@ impl Axis {
     }
 
     fn text(self, value: f64) -> String {
-        let places = (-self.step.log10().floor()).max(0.0) as usize;
+        let places = (-libm::log10(self.step).floor()).max(0.0) as usize;
         let text = format!("{value:.places$}");
         if text.trim_start_matches('-').chars().all(|it| "0.".contains(it)) {
             "0".to_owned()

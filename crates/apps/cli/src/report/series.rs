@@ -49,14 +49,14 @@ fn speed(run: &OpenRun) -> Result<Option<Plot>, CliError> {
         name.clone_from(&topic.name);
         each_at::<Odometry>(&run.bag, &[topic.name.as_str()], |_, time_ns, message| {
             let twist = message.twist.twist.linear;
-            linear.push((seconds(time_ns), twist.x.hypot(twist.y)));
+            linear.push((seconds(time_ns), libm::hypot(twist.x, twist.y)));
         })?;
     } else if let Some(base) = run.base() {
         let track = run.frames.track("odom", &base, MAX_POSE_COUNT);
         let first_ns = track.first().map_or(0, |it| it.0);
         for pair in track.windows(2) {
             let [(from_ns, from), (to_ns, to)] = [pair[0], pair[1]];
-            let distance_m = (to.x_m - from.x_m).hypot(to.y_m - from.y_m);
+            let distance_m = libm::hypot(to.x_m - from.x_m, to.y_m - from.y_m);
             let span_s = (to_ns - from_ns) as f64 * 1e-9;
             linear.push(((to_ns - first_ns) as f64 * 1e-9, distance_m / span_s));
         }

@@ -193,7 +193,7 @@ impl Report<'_> {
         let trajectory = self.slam.trajectory();
         trajectory
             .windows(2)
-            .map(|pair| (pair[1].1.x_m - pair[0].1.x_m).hypot(pair[1].1.y_m - pair[0].1.y_m))
+            .map(|pair| libm::hypot(pair[1].1.x_m - pair[0].1.x_m, pair[1].1.y_m - pair[0].1.y_m))
             .sum()
     }
 }

@@ -181,7 +181,7 @@ impl PyScan {
         let mut points = Vec::with_capacity(2 * scan.ranges.len());
         for (beam, range) in scan.ranges.iter().enumerate() {
             if (scan.range_min..=scan.range_max).contains(range) {
-                let (sine, cosine) = (start + step * beam as f64).sin_cos();
+                let (sine, cosine) = libm::sincos(start + step * beam as f64);
                 points.extend([f64::from(*range) * cosine, f64::from(*range) * sine]);
             }
         }
@@ -590,7 +590,7 @@ fn scan_png(scan: &LaserScan) -> Option<Vec<u8>> {
     dot(0.0, 0.0, 3, LIDAR);
     for (beam, range) in scan.ranges.iter().enumerate().filter(|(_, range)| valid(range)) {
         let angle = f64::from(scan.angle_min) + f64::from(scan.angle_increment) * beam as f64;
-        let (sine, cosine) = angle.sin_cos();
+        let (sine, cosine) = libm::sincos(angle);
         dot(f64::from(*range) * cosine, f64::from(*range) * sine, 1, POINT);
     }
     let side = SCAN_SIDE_PX as u32;

@@ -123,7 +123,7 @@ impl PySimulation {
 fn usual_pose(robot: Option<Pose>) -> Pose {
     let robot = robot.unwrap_or(Pose::IDENTITY);
     let yaw = robot.rpy().yaw;
-    let (sine, cosine) = yaw.sin_cos();
+    let (sine, cosine) = libm::sincos(yaw);
     let at = robot.translation;
     Pose::from_xyz_rpy(
         [at.x - BEHIND_M * cosine, at.y - BEHIND_M * sine, at.z + ABOVE_M],

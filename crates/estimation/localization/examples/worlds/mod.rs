@@ -151,7 +151,7 @@ impl World {
             let at = move |index: usize, stream: &mut Stream| {
                 let angle = index as f64 / corners as f64 * TAU;
                 let radius = radius * (0.8 + 0.4 * stream.unit());
-                (middle.0 + 1.25 * radius * angle.cos(), middle.1 + radius * angle.sin())
+                (middle.0 + 1.25 * radius * libm::cos(angle), middle.1 + radius * libm::sin(angle))
             };
             (0..corners).map(|index| at(index, &mut stream)).collect::<Vec<_>>()
         };
@@ -250,10 +250,10 @@ impl World {
             let (bearing, far) = (TAU * stream.unit(), 0.8 + 2.5 * stream.unit());
             for (beam, range) in ranges.iter_mut().enumerate() {
                 let off = normalize_angle(beam as f64 * TAU / BEAMS as f64 - bearing);
-                let aside = far * off.sin();
+                let aside = far * libm::sin(off);
                 // Radius of a person, seen from any side.
-                if off.cos() > 0.0 && aside.abs() < 0.2 {
-                    let near = far * off.cos() - (0.04 - aside * aside).sqrt();
+                if libm::cos(off) > 0.0 && aside.abs() < 0.2 {
+                    let near = far * libm::cos(off) - (0.04 - aside * aside).sqrt();
                     if near < *range {
                         *range = near;
                         blocked += 1;

@@ -210,7 +210,7 @@ mod tests {
         for a in 0..truth.len() {
             for b in a + 1..truth.len() {
                 let between = truth[a].inverse() * truth[b];
-                if b == a + 1 || (between.x_m.hypot(between.y_m) < 0.5 && b % 3 == 0) {
+                if b == a + 1 || (libm::hypot(between.x_m, between.y_m) < 0.5 && b % 3 == 0) {
                     graph.add_edge(edge(a, b, between));
                 }
             }

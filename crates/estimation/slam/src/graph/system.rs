@@ -260,7 +260,7 @@ mod tests {
             assert_eq!(system.factorize(0, system.len(), usize::MAX), Some(system.len()));
             poses = system.solve(&poses).0;
         }
-        let off = poses.iter().zip(&truth).map(|(a, b)| (a.x_m - b.x_m).hypot(a.y_m - b.y_m));
+        let off = poses.iter().zip(&truth).map(|(a, b)| libm::hypot(a.x_m - b.x_m, a.y_m - b.y_m));
         let most_m = off.fold(0.0, f64::max);
         assert!(most_m < 1e-6, "{most_m}");
     }

@@ -42,7 +42,7 @@ mod tests {
     /// Keyframes in a round room.
     fn round(radius_m: f32, count: usize) -> Vec<Keyframe> {
         let beam = |index: u16| {
-            let (s, c) = (0.01 * f32::from(index)).sin_cos();
+            let (s, c) = libm::sincosf(0.01 * f32::from(index));
             Some([radius_m * c, radius_m * s])
         };
         let cloud = Cloud::new((0..300).map(beam), [0.0; 2], 0.01, &CloudSettings::default());

@@ -60,7 +60,7 @@ fn look(map: &Map, map_from_laser: Pose2) -> Vec<f32> {
     let finder = map.info.finder();
     let range = |beam: usize| {
         let angle = map_from_laser.yaw_rad - PI + beam as f64 * TAU / BEAMS as f64;
-        let (sine, cosine) = angle.sin_cos();
+        let (sine, cosine) = libm::sincos(angle);
         let hit = (1..400).map(|step| 0.02 * f64::from(step)).find(|range| {
             let (x, y) = (map_from_laser.x_m + range * cosine, map_from_laser.y_m + range * sine);
             finder.cell_of(x, y).is_none_or(|cell| map[cell] == occupancy::OCCUPIED)
@@ -140,7 +140,7 @@ fn ns(time: &Time) -> i64 {
 
 fn x_y_yaw(pose: &periplus_msgs::geometry_msgs::Pose) -> (f64, f64, f64) {
     let q = &pose.orientation;
-    (pose.position.x, pose.position.y, 2.0 * q.z.atan2(q.w))
+    (pose.position.x, pose.position.y, 2.0 * libm::atan2(q.z, q.w))
 }
 
 /// Initial pose as a message.
@@ -149,7 +149,7 @@ fn guess(stamp_ns: i64, pose: Pose2) -> PoseWithCovarianceStamped {
         header: Header { stamp: time(stamp_ns), frame_id: "map".into() },
         ..PoseWithCovarianceStamped::default()
     };
-    let (sine, cosine) = (0.5 * pose.yaw_rad).sin_cos();
+    let (sine, cosine) = libm::sincos(0.5 * pose.yaw_rad);
     let to = &mut guess.pose;
     (to.pose.position.x, to.pose.position.y) = (pose.x_m, pose.y_m);
     to.pose.orientation = Quaternion { x: 0.0, y: 0.0, z: sine, w: cosine };
@@ -344,7 +344,7 @@ fn a_robot_without_an_initial_pose_is_localized_globally() {
     assert!(stage.transform().is_none(), "a hypothesis among others is not a pose");
     stage.drive_to_start();
     let (x, y, yaw) = x_y_yaw(&stage.poses.latest().unwrap().pose.pose);
-    assert!((x - START.x_m).hypot(y - START.y_m) < 0.1 && (yaw - START.yaw_rad).abs() < 0.1);
+    assert!(libm::hypot(x - START.x_m, y - START.y_m) < 0.1 && (yaw - START.yaw_rad).abs() < 0.1);
     assert!(stage.logged().contains("global localization found the pose"), "{}", stage.logged());
 }
 
@@ -394,7 +394,7 @@ fn past_initial_poses_are_predicted_by_odometry() {
     stage.guesses.publish(guess(then_ns, START));
     stage.advance(10);
     let pose = stage.amcl.with(|it| it.amcl().map(|amcl| amcl.estimate().unwrap().pose)).unwrap();
-    assert!((pose.x_m - now.x_m).hypot(pose.y_m - now.y_m) < 0.1, "{pose:?} {now:?}");
+    assert!(libm::hypot(pose.x_m - now.x_m, pose.y_m - now.y_m) < 0.1, "{pose:?} {now:?}");
     // Older than anything that is known of odometry.
     for milliseconds in [20_000, 10, 10] {
         stage.advance(milliseconds);

@@ -135,7 +135,7 @@ fn a_changed_world_contradicts_the_map_until_it_is_reset() {
     assert_eq!((ring.r#type, ring.header.frame_id.as_str()), (Marker::LINE_STRIP, "map"));
     assert_eq!([ring.color.r, ring.color.g, ring.color.b, ring.color.a], [1.0, 0.0, 0.0, 1.0]);
     for corner in &ring.points {
-        let radius_m = f64::hypot(corner.x - position[0], corner.y - position[1]);
+        let radius_m = libm::hypot(corner.x - position[0], corner.y - position[1]);
         assert!((radius_m - 1.5).abs() < 0.01, "{radius_m}");
     }
     let text = markers.iter().find(|it| it.r#type == Marker::TEXT_VIEW_FACING).unwrap();
@@ -228,7 +228,7 @@ fn right_walls(stage: &Stage) -> f64 {
             let (x, y) = stage.start.transform_point(x, y);
             let away = stage.walls.iter().map(|&[x0, y0, x1, y1]| {
                 let nearest = |value: f64, a: f64, b: f64| value.clamp(a.min(b), a.max(b));
-                f64::hypot(x - nearest(x, x0, x1), y - nearest(y, y0, y1))
+                libm::hypot(x - nearest(x, x0, x1), y - nearest(y, y0, y1))
             });
             all += 1;
             right += usize::from(away.fold(f64::INFINITY, f64::min) < 0.15);

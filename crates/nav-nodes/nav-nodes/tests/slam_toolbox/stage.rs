@@ -42,7 +42,7 @@ pub(crate) const START: Pose2 = Pose2::new(0.2, 0.1, 0.3);
 pub(crate) fn look(walls: &[[f64; 4]], room_from_laser: Pose2) -> Vec<f32> {
     let range = |beam: usize| {
         let angle = room_from_laser.yaw_rad - PI + beam as f64 * TAU / BEAMS as f64;
-        let (s, c) = angle.sin_cos();
+        let (s, c) = libm::sincos(angle);
         let hits = walls.iter().filter_map(|[x0, y0, x1, y1]| {
             let (ux, uy) = (x1 - x0, y1 - y0);
             let cross = c * uy - s * ux;
@@ -67,7 +67,7 @@ pub(crate) fn path(corners: &[(f64, f64)]) -> Vec<Pose2> {
     let mut poses = Vec::new();
     for pair in corners.windows(2) {
         let (dx, dy) = (pair[1].0 - pair[0].0, pair[1].1 - pair[0].1);
-        let (length, yaw) = (f64::hypot(dx, dy), f64::atan2(dy, dx));
+        let (length, yaw) = (libm::hypot(dx, dy), libm::atan2(dy, dx));
         let steps = (length / 0.15).ceil();
         for step in 1..=steps as usize {
             let part = step as f64 / steps;
@@ -143,7 +143,7 @@ pub(crate) fn ns(time: &Time) -> i64 {
 }
 
 pub(crate) fn message_pose(pose: Pose2) -> periplus_msgs::geometry_msgs::Pose {
-    let (sine, cosine) = (0.5 * pose.yaw_rad).sin_cos();
+    let (sine, cosine) = libm::sincos(0.5 * pose.yaw_rad);
     let mut message = periplus_msgs::geometry_msgs::Pose::default();
     (message.position.x, message.position.y) = (pose.x_m, pose.y_m);
     message.orientation = Quaternion { x: 0.0, y: 0.0, z: sine, w: cosine };
@@ -151,7 +151,7 @@ pub(crate) fn message_pose(pose: Pose2) -> periplus_msgs::geometry_msgs::Pose {
 }
 
 pub(crate) fn off(a: Pose2, b: Pose2) -> f64 {
-    f64::hypot(a.x_m - b.x_m, a.y_m - b.y_m)
+    libm::hypot(a.x_m - b.x_m, a.y_m - b.y_m)
 }
 
 impl Stage {
@@ -251,7 +251,7 @@ impl Stage {
         let it = found.next_back()?;
         assert_eq!(it.header.frame_id, "map");
         let (t, q) = (&it.transform.translation, &it.transform.rotation);
-        Some((ns(&it.header.stamp), Pose2::new(t.x, t.y, 2.0 * q.z.atan2(q.w))))
+        Some((ns(&it.header.stamp), Pose2::new(t.x, t.y, 2.0 * libm::atan2(q.z, q.w))))
     }
 
     pub(crate) fn said(&self) -> String {

@@ -347,9 +347,9 @@ mod tests {
         near(steps(&samples.wz.velocities, 4), &[0.0, 0.4, 0.8, 1.0]);
         near(steps(&samples.yaw, 4), &[0.0, 0.04, 0.12, 0.22]);
         // The second move is straight, the third along 0.04 rad, the fourth along 0.12 rad.
-        let x = 0.03 + 0.05 * 0.04_f32.cos();
-        near(steps(&samples.x, 4), &[0.0, 0.03, x, x + 0.05 * 0.12_f32.cos()]);
-        near(steps(&samples.y, 3), &[0.0, 0.0, 0.05 * 0.04_f32.sin()]);
+        let x = 0.03 + 0.05 * libm::cosf(0.04_f32);
+        near(steps(&samples.x, 4), &[0.0, 0.03, x, x + 0.05 * libm::cosf(0.12_f32)]);
+        near(steps(&samples.y, 3), &[0.0, 0.0, 0.05 * libm::sinf(0.04_f32)]);
     }
 
     #[test]
@@ -408,6 +408,6 @@ mod tests {
         sequence.vx = vec![0.2, 0.4];
         sequence.wz = vec![1.0, 0.0];
         let poses = trajectory(&sequence, &Start::default(), 0.1);
-        near(poses[1], &[0.02 + 0.04 * 0.1_f32.cos(), 0.04 * 0.1_f32.sin(), 0.1]);
+        near(poses[1], &[0.02 + 0.04 * libm::cosf(0.1_f32), 0.04 * libm::sinf(0.1_f32), 0.1]);
     }
 }

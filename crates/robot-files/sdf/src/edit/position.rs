@@ -9,6 +9,7 @@ use crate::read_pose;
 
 /// Decimal places of written lengths and angles: micrometres and microradians.
 const DECIMAL_PLACE_COUNT: usize = 6;
+const DECIMAL_PLACE: f64 = 1e-6;
 
 /// Decimal places of written quaternions.
 const QUATERNION_DECIMAL_PLACE_COUNT: usize = 9;
@@ -62,7 +63,7 @@ pub(super) fn pose_edit(
     if text.split_whitespace().count() != target.len() {
         return Err(WorldEditError::Unexpected);
     }
-    let tolerance = 0.5 * 10_f64.powi(-(DECIMAL_PLACE_COUNT as i32));
+    let tolerance = 0.5 * DECIMAL_PLACE;
     let mut changed = String::new();
     let mut target = target.iter();
     for part in text.split_inclusive(char::is_whitespace) {

@@ -129,7 +129,7 @@ fn point(region: Region, [u, v, w]: [f64; 3]) -> DVec3 {
     match region {
         Region::Box(size) => (DVec3::new(u, v, w) - 0.5) * size,
         Region::Cylinder { radius_m, length_m } => {
-            let (sine, cosine) = (std::f64::consts::TAU * v).sin_cos();
+            let (sine, cosine) = libm::sincos(std::f64::consts::TAU * v);
             let radius = radius_m * u.sqrt();
             DVec3::new(radius * cosine, radius * sine, (w - 0.5) * length_m)
         }

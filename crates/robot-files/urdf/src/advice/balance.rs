@@ -132,7 +132,7 @@ fn low_points(collision: &UrdfCollision, model_from_link: Pose) -> Option<Vec<DV
                     let rim = |index: u8| {
                         let angle =
                             std::f64::consts::TAU * f64::from(index) / f64::from(RIM_POINTS);
-                        let (sine, cosine) = angle.sin_cos();
+                        let (sine, cosine) = libm::sincos(angle);
                         pose.rotation * DVec3::new(radius_m * cosine, radius_m * sine, 0.0)
                     };
                     ends.into_iter()
@@ -168,7 +168,7 @@ fn distance_inside(points: &[[f64; 2]], point: [f64; 2]) -> f64 {
     edges
         .map(|(a, b)| {
             let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
-            (dx * (point[1] - a[1]) - dy * (point[0] - a[0])) / dx.hypot(dy)
+            (dx * (point[1] - a[1]) - dy * (point[0] - a[0])) / libm::hypot(dx, dy)
         })
         .fold(f64::INFINITY, f64::min)
 }

@@ -35,7 +35,7 @@ pub(super) fn area_of_shape(
 ) -> Result<Option<ObstacleArea>, String> {
     let centre = world_from_body.translation;
     let axis = world_from_body.rotation * DVec3::Z;
-    let is_upright = axis.x.hypot(axis.y) < MAX_UPRIGHT_SINE_RATIO;
+    let is_upright = libm::hypot(axis.x, axis.y) < MAX_UPRIGHT_SINE_RATIO;
     let circle = |radius_m: f64, half_height_m: f64| {
         let is_in_band =
             centre.z - half_height_m < band.high_m && centre.z + half_height_m > band.low_m;

@@ -25,7 +25,7 @@ pub(crate) fn fixed(solid: &Solid) -> RaycastWorld {
 /// A direction with uniform distribution on the sphere (by Archimedes: uniform height and angle).
 pub(crate) fn unit(stream: &mut Stream) -> DVec3 {
     let z = 2.0 * stream.unit() - 1.0;
-    let (sine, cosine) = (std::f64::consts::TAU * stream.unit()).sin_cos();
+    let (sine, cosine) = libm::sincos(std::f64::consts::TAU * stream.unit());
     let r = (1.0 - z * z).sqrt();
     DVec3::new(r * cosine, r * sine, z)
 }

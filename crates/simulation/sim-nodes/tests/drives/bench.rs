@@ -272,7 +272,7 @@ pub(crate) fn twist(x: f64, y: f64, yaw: f64) -> Twist {
 /// Position and yaw of odometry, then its speeds.
 pub(crate) fn numbers(odometry: &nav_msgs::Odometry) -> [f64; 6] {
     let (pose, twist) = (&odometry.pose.pose, &odometry.twist.twist);
-    let yaw = 2.0 * pose.orientation.z.atan2(pose.orientation.w);
+    let yaw = 2.0 * libm::atan2(pose.orientation.z, pose.orientation.w);
     let position = &pose.position;
     [position.x, position.y, yaw, twist.linear.x, twist.linear.y, twist.angular.z]
 }

@@ -42,7 +42,7 @@ pub(super) fn number_text(value: f64, digit_count: usize) -> String {
     if value == 0.0 || !value.is_finite() {
         return "0".to_owned();
     }
-    let magnitude = value.abs().log10().floor() as i32 + 1;
+    let magnitude = libm::log10(value.abs()).floor() as i32 + 1;
     let places = usize::try_from(digit_count as i32 - magnitude).unwrap_or(0).min(12);
     let text = format!("{value:.places$}");
     let text = if text.contains('.') {

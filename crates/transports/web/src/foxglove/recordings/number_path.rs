@@ -46,7 +46,7 @@ fn in_fields(layout: &Layout, fields: &[Value], path: &[String]) -> Option<f64> 
 fn yaw_rad(layout: &Layout, fields: &[Value]) -> Option<f64> {
     let part = |name: &str| in_fields(layout, fields, &[name.to_owned()]);
     let (x, y, z, w) = (part("x")?, part("y")?, part("z")?, part("w")?);
-    Some(f64::atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z)))
+    Some(libm::atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z)))
 }
 
 fn element(numbers: &NumberVec, index: usize) -> Option<f64> {
