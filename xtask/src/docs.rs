@@ -27,6 +27,8 @@ pub(crate) enum Part {
     Links,
     /// Site in `target/site`, built by mdbook if it is installed
     Site,
+    /// Site in a browser: links, search, pages on a phone, first paint and weight; only if it is named
+    Browser,
 }
 
 /// Description of Periplus in `docs/llms.txt`.
@@ -54,6 +56,10 @@ pub(crate) fn run(only: Option<Part>) -> Result<(), Failed> {
     }
     if is_wanted(Part::Site) {
         timed("docs: site", || book::build(only == Some(Part::Site)))?;
+    }
+    if only == Some(Part::Browser) {
+        timed("docs: site", || book::build(true))?;
+        timed("docs: in a browser", crate::viewer::site)?;
     }
     if is_wanted(Part::Code) {
         timed("docs: code", rustdoc::run)?;

@@ -47,14 +47,28 @@ pub(crate) fn bench() -> Result<(), Failed> {
     with_browser("page: first picture", &["run", "--silent", "bench:first"])
 }
 
+/// Checks the documentation site in a browser, where there is one.
+pub(crate) fn site() -> Result<(), Failed> {
+    install()?;
+    if has_browser() { npm(&["run", "--silent", "e2e:site"], "see above") } else { Ok(()) }
+}
+
 fn with_browser(name: &str, words: &[&str]) -> Result<(), Failed> {
     install()?;
-    if browser().is_none() {
-        println!("SKIPPED: no Chromium to drive the page with; apt-get install chromium");
+    if !has_browser() {
         return Ok(());
     }
     timed("page: periplus", build_program)?;
     timed(name, || npm(words, "see above"))
+}
+
+/// True if there is a Chromium; otherwise it prints what is skipped.
+fn has_browser() -> bool {
+    let is_there = browser().is_some();
+    if !is_there {
+        println!("SKIPPED: no Chromium to open pages with; apt-get install chromium");
+    }
+    is_there
 }
 
 fn install() -> Result<(), Failed> {
