@@ -9,7 +9,8 @@ use serde_json::{Map, Value, json};
 use crate::error::CliError;
 use crate::paths;
 use crate::score::{
-    Run, RunScores, ScoreSettings, difference_table, names, put_json, value, write_picture,
+    Run, RunScores, ScoreOutputs, ScoreSettings, difference_table, names, put_json, value,
+    write_picture,
 };
 use crate::terminal::say;
 
@@ -27,16 +28,19 @@ pub(crate) struct RunComparisonOptions {
     second: PathBuf,
     #[command(flatten)]
     settings: ScoreSettings,
+    #[command(flatten)]
+    outputs: ScoreOutputs,
 }
 
 pub(crate) fn run(options: &RunComparisonOptions) -> Result<ExitCode, CliError> {
     let settings = &options.settings;
     let first = scores(&options.first, settings)?;
     let second = scores(&options.second, settings)?;
-    if let Some(path) = &settings.picture {
+    let outputs = &options.outputs;
+    if let Some(path) = &outputs.picture {
         write_picture(path, &[&first, &second])?;
     }
-    if settings.json {
+    if outputs.json {
         let difference: Map<String, Value> = names([&first, &second], |_| true)
             .into_iter()
             .map(|name| {
@@ -50,7 +54,7 @@ pub(crate) fn run(options: &RunComparisonOptions) -> Result<ExitCode, CliError> 
         return Ok(ExitCode::SUCCESS);
     }
     difference_table(&mut anstream::stdout().lock(), [&first, &second])?;
-    if let Some(path) = &settings.picture {
+    if let Some(path) = &outputs.picture {
         say(&format!(
             "{} shows A in green (truth) and blue (estimate), B in yellow (truth) and red (estimate)",
             path.display()

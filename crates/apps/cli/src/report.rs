@@ -21,11 +21,12 @@ use std::process::ExitCode;
 use clap::Args;
 use periplus_bags::files::Bag;
 use periplus_session::recorded::RecordedFrames;
+use serde_json::json;
 
 use self::html::{Section, document, escape};
 use crate::error::CliError;
 use crate::paths;
-use crate::score::ScoreSettings;
+use crate::score::{ScoreSettings, put_json};
 use crate::terminal::say;
 
 /// Write a report of a run, or of two runs and their difference, as one HTML file
@@ -44,6 +45,9 @@ pub(crate) struct ReportOptions {
     /// HTML file to write [default: the name of RUN with `.html`]
     #[arg(long, short = 'o', value_name = "FILE.html")]
     output: Option<PathBuf>,
+    /// Print the scores of the runs as JSON
+    #[arg(long)]
+    json: bool,
     #[command(flatten)]
     settings: ScoreSettings,
 }
@@ -55,6 +59,11 @@ pub(crate) fn run(options: &ReportOptions) -> Result<ExitCode, CliError> {
     let output = options.output.clone().unwrap_or_else(|| options.run.with_extension("html"));
     paths::write(&output, html.as_bytes())?;
     say(&format!("report: {}", output.display()));
+    if options.json {
+        let scores: Vec<_> =
+            runs.iter().map(|run| scores::to_json(run, &options.settings)).collect();
+        put_json(&json!({ "report": output.display().to_string(), "runs": scores }))?;
+    }
     Ok(ExitCode::SUCCESS)
 }
 

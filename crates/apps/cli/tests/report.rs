@@ -8,9 +8,10 @@ use std::process::Command;
 
 use common::Folder;
 
-fn periplus(arguments: &[&str]) {
+fn periplus(arguments: &[&str]) -> String {
     let done = Command::new(env!("CARGO_BIN_EXE_periplus")).args(arguments).output().unwrap();
     assert!(done.status.success(), "{arguments:?}: {}", String::from_utf8_lossy(&done.stderr));
+    String::from_utf8(done.stdout).unwrap()
 }
 
 /// A drive in a circle, its map with coarser cells, and the reports on one and on both.
@@ -49,7 +50,13 @@ fn a_report_is_one_file_without_script_and_network() {
         assert!(one.contains(part), "{part}");
     }
     let both = path("both.html");
-    periplus(&["report", &run, &coarse, "-o", &both]);
+    let printed = periplus(&["report", &run, &coarse, "-o", &both, "--json"]);
+    let printed: serde_json::Value = serde_json::from_str(&printed).unwrap();
+    assert_eq!(printed["report"], both);
+    assert!(printed["runs"][0]["scores"]["localization.ape_rmse_m"].is_f64(), "{printed}");
+    let scored = serde_json::from_str::<serde_json::Value>(&periplus(&["score", &run, "--json"]));
+    assert_eq!(printed["runs"][0]["scores"], scored.unwrap()["scores"]);
+    assert_eq!(printed["runs"].as_array().unwrap().len(), 2);
     let both = std::fs::read_to_string(both).unwrap();
     assert!(both.contains("Cells that both maps know") && both.contains("m RMS"));
     for html in [one, both] {

@@ -1,6 +1,9 @@
 //! Scores of a run, as `periplus score` and `periplus compare` print them.
 
 use std::fmt::Write as _;
+use std::path::Path;
+
+use serde_json::{Value, json};
 
 use super::OpenRun;
 use super::html::{Section, escape, paragraph, table};
@@ -66,7 +69,21 @@ fn without(why: &str) -> String {
     paragraph(&format!("No scores against the truth: {why}"))
 }
 
+/// Scores of a run as `periplus score --json` prints them, or the reason for which there are none.
+pub(super) fn to_json(run: &Path, settings: &ScoreSettings) -> Value {
+    match of(run, settings) {
+        Ok(scores) => scores.to_json(),
+        Err(why) => json!({
+            "run": run.display().to_string(), "truth": null, "scores": null, "reason": why,
+        }),
+    }
+}
+
 fn scores(run: &OpenRun, settings: &ScoreSettings) -> Result<RunScores, String> {
+    of(&run.path, settings)
+}
+
+fn of(run: &Path, settings: &ScoreSettings) -> Result<RunScores, String> {
     let text = |error: CliError| error.message();
-    RunScores::of(&Run::read(&run.path, settings).map_err(text)?, settings).map_err(text)
+    RunScores::of(&Run::read(run, settings).map_err(text)?, settings).map_err(text)
 }

@@ -17,6 +17,8 @@ pub(crate) struct ScoreOptions {
     pub(crate) run: PathBuf,
     #[command(flatten)]
     pub(crate) settings: ScoreSettings,
+    #[command(flatten)]
+    pub(crate) outputs: ScoreOutputs,
 }
 
 /// Settings of a score.
@@ -59,6 +61,11 @@ pub(crate) struct ScoreSettings {
     /// Frame of the robot [default: `base_footprint` or `base_link`, whichever the recording has]
     #[arg(long, value_name = "FRAME")]
     pub(crate) base_frame: Option<String>,
+}
+
+/// Results of `periplus score` and `periplus compare` besides the table.
+#[derive(Clone, Debug, Args)]
+pub(crate) struct ScoreOutputs {
     /// Write a picture of the paths over the map, seen from above
     #[arg(long, value_name = "FILE.png")]
     pub(crate) picture: Option<PathBuf>,
@@ -83,8 +90,6 @@ impl Default for ScoreSettings {
             map_frame: "map".to_owned(),
             odom_frame: "odom".to_owned(),
             base_frame: None,
-            picture: None,
-            json: false,
         }
     }
 }
