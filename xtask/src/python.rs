@@ -29,6 +29,7 @@ const TOOLS: [&str; 18] = [
     "pyarrow",
     "ray",
     "mcp>=2,<3",
+    "jsonschema>=4,<5",
 ];
 
 /// Maximum size of the wheel [bytes].

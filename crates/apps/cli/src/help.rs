@@ -36,7 +36,7 @@ const GROUPS: [(&str, &[&str]); 7] = [
             "bridge",
         ],
     ),
-    ("This program", &["mcp", "completions", "man", "conformance", "help"]),
+    ("This program", &["mcp", "completions", "man", "schema", "conformance", "help"]),
 ];
 
 /// ROS and Gazebo commands that are translated, for the help.

@@ -35,6 +35,7 @@ mod report;
 mod rerun;
 mod run_options;
 mod scenario;
+mod schema;
 mod score;
 mod sim;
 mod slam;
@@ -156,6 +157,7 @@ pub fn run(words: Vec<String>, own_command: Vec<String>, interpreter: Option<Str
         Command::Demo(options) => demo::run(&options),
         Command::Look(options) => look::run(&options),
         Command::Mcp(options) => mcp::run(&options),
+        Command::Schema(options) => schema::run(&options),
         Command::Convert(options) => convert::run(&options),
         Command::Doctor(options) => doctor::run(&options),
         Command::New(command) => new::run(&command),

@@ -24,6 +24,7 @@ use crate::program::RunOptions;
 use crate::report::ReportOptions;
 use crate::rerun::RerunOptions;
 use crate::scenario::ScenarioOptions;
+use crate::schema::SchemaOptions;
 use crate::score::ScoreOptions;
 use crate::sim::SimOptions;
 use crate::slam::SlamOptions;
@@ -99,6 +100,7 @@ pub(crate) enum Command {
     Costmap(CostmapServeOptions),
     Bridge(BridgeOptions),
     Conformance(ConformanceOptions),
+    Schema(SchemaOptions),
     Doctor(Box<DoctorOptions>),
 }
 

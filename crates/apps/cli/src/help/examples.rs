@@ -101,6 +101,10 @@ pub(super) const EXAMPLES: &[(&str, &[Example])] = &[
     ("map info", &[("periplus map info room.yaml", "Size, origin, and fractions of free, occupied and unknown cells")]),
     ("map save", &[("periplus map save -f room", "Save /map as room.yaml and room.pgm")]),
     ("map serve", &[("periplus map serve room.yaml", "Publish /map and offer its services")]),
+    ("schema", &[
+        ("periplus schema", "Commands that have a schema"),
+        ("periplus schema map diff", "Schema of `periplus map diff --json`"),
+    ]),
     ("mcp", &[
         ("periplus mcp", "For the configuration of an agent: command `periplus`, argument `mcp`"),
         ("periplus mcp --folder project --tools check,look,sim,slam", "Some tools, on the files of a folder"),
