@@ -55,6 +55,8 @@ function pagesOf(folder, below = '') {
   return readdirSync(join(folder, below), { withFileTypes: true })
     .flatMap((entry) => {
       const path = below ? `${below}/${entry.name}` : entry.name;
+      // The page to run in a tab has tests of its own.
+      if (path === 'run') return [];
       if (entry.isDirectory()) return pagesOf(folder, path);
       if (!path.endsWith('.html') || NOT_PAGES.includes(entry.name)) return [];
       return readFileSync(join(folder, path), 'utf8').includes('http-equiv="refresh"')
@@ -123,6 +125,18 @@ async function search(page, url, word) {
   return count;
 }
 
+/** The page in the page: "Run it here" starts a simulation. */
+async function runHere(page, url, path) {
+  await page.goto(url + path);
+  await page.getByRole('button', { name: 'Run it here' }).click();
+  const frame = page.frameLocator('.run-here iframe');
+  await frame.locator('canvas').first().waitFor({ timeout: 60_000 });
+  const inner = page.frames().find((it) => it.url().includes('/run/'));
+  await inner.waitForFunction("window.periplus?.client.channels.has('/scan')", undefined, {
+    timeout: 90_000,
+  });
+}
+
 /** First and largest paint [ms], and bytes of one page in a new browser context. */
 async function figures(chrome, site, path) {
   const context = await chrome.newContext({ viewport: DESKTOP });
@@ -166,6 +180,14 @@ try {
   const desktop = await chrome.newPage({ viewport: DESKTOP });
   for (const word of ['footprint', 'odometry']) {
     console.log(`search for "${word}": ${await search(desktop, site.url, word)} results`);
+  }
+  if (existsSync(join(SITE, 'run/index.html'))) {
+    for (const path of ['', 'tutorials/nav2-sensors.html']) {
+      await runHere(desktop, site.url, path);
+      console.log(`/${path}: "Run it here" shows a scan`);
+    }
+  } else {
+    console.log('SKIPPED: "Run it here"; `cargo xtask wasm --page` builds the page for it');
   }
   for (const path of ['', 'displays.html', 'cli/sim.html', 'slam-parameters.html']) {
     const it = await figures(chrome, site, path);

@@ -1,7 +1,9 @@
 //! The site: every page below `docs/` is in its table of contents, and mdbook builds it.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 use std::process::Command;
+use std::{fs, io};
 
 use super::links::resolve;
 use super::page::{Page, Target};
@@ -49,7 +51,38 @@ pub(crate) fn build(is_asked_for: bool) -> Result<(), Failed> {
         eprintln!("NOTE: mdbook is not installed, so the site was not built: {INSTALL}");
         return Ok(());
     }
-    run(Command::new("mdbook").current_dir(root()).arg("build"), INSTALL)
+    run(Command::new("mdbook").current_dir(root()).arg("build"), INSTALL)?;
+    add_page()
+}
+
+/// Copies the page that runs in a browser tab to where the buttons "Run it here" expect it (`docs/run-here.js`). Without
+/// it the site has no such buttons.
+fn add_page() -> Result<(), Failed> {
+    let (page, place) = (root().join("target/tab/page"), root().join("target/site/run"));
+    if !page.join("index.html").exists() {
+        eprintln!(
+            "NOTE: the site has no page to run in a tab: `cargo xtask wasm --page` builds it"
+        );
+        return Ok(());
+    }
+    copy(&page, &place).map_err(|error| Failed(format!("target/site/run: {error}")))
+}
+
+/// Copies a folder; compressed twins of files, which only a host with support for them needs, are left out.
+fn copy(from: &Path, to: &Path) -> io::Result<()> {
+    fs::create_dir_all(to)?;
+    for entry in fs::read_dir(from)? {
+        let (path, target) = {
+            let entry = entry?;
+            (entry.path(), to.join(entry.file_name()))
+        };
+        if path.is_dir() {
+            copy(&path, &target)?;
+        } else if path.extension().is_none_or(|it| it != "br") {
+            fs::copy(&path, &target)?;
+        }
+    }
+    Ok(())
 }
 
 #[cfg(test)]
