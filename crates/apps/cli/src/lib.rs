@@ -41,7 +41,6 @@ mod slam;
 mod sweep;
 mod teleop;
 mod terminal;
-mod timing;
 mod verbs;
 mod view;
 

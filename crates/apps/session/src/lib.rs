@@ -13,6 +13,9 @@ mod error;
 pub mod files;
 #[cfg(not(target_family = "wasm"))]
 mod live;
+pub mod log_mapping;
+#[cfg(any(test, target_family = "wasm"))]
+mod messages;
 #[cfg(not(target_family = "wasm"))]
 mod network;
 #[cfg(target_family = "wasm")]
@@ -31,11 +34,13 @@ pub mod recorded;
 mod recording;
 mod report;
 pub mod rerun;
+pub mod scan_log;
 mod session;
 mod steps;
 #[cfg(not(target_family = "wasm"))]
 pub mod stop;
 pub mod terminal;
+pub mod timing;
 
 pub use builder::{RecordingRequest, SessionBuilder};
 pub use description::with_version;
