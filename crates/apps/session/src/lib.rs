@@ -5,7 +5,9 @@
 //! works between its steps, and a [`RunReport`] sums it up. A [`LiveGraph`] is a graph without a
 //! simulation on ROS 2. Progress and findings are printed to stderr.
 
+mod arguments;
 mod builder;
+pub mod check;
 pub mod demo;
 mod description;
 pub mod difference;
@@ -42,6 +44,7 @@ pub mod stop;
 pub mod terminal;
 pub mod timing;
 
+pub use arguments::read_arguments;
 pub use builder::{RecordingRequest, SessionBuilder};
 pub use description::with_version;
 pub use error::RunError;

@@ -34,7 +34,7 @@ impl Write for MessageLog {
 pub fn take_messages() -> String {
     let (bytes, dropped) = std::mem::take(&mut *LOG.lock().unwrap_or_else(PoisonError::into_inner));
     let text = String::from_utf8_lossy(&bytes);
-    let mut text = anstream::adapter::strip_str(&text).to_string();
+    let mut text = crate::terminal::without_colours(&text);
     if dropped > 0 {
         text.push_str(&format!("{dropped} bytes of further messages were dropped\n"));
     }

@@ -91,9 +91,19 @@ pub fn print_findings(findings: &Diagnostics) -> io::Result<()> {
     diagnostics(&mut messages(), findings, &SourceMap::new())
 }
 
+/// Returns a text without colours.
+#[must_use]
+pub fn without_colours(text: &str) -> String {
+    anstream::adapter::strip_str(text).to_string()
+}
+
 /// Working folder of the user.
 #[must_use]
 pub fn working_folder() -> PathBuf {
+    if cfg!(target_family = "wasm") {
+        // Files in memory have absolute paths.
+        return PathBuf::from("/");
+    }
     std::env::current_dir().unwrap_or_default()
 }
 
