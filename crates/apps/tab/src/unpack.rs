@@ -3,14 +3,14 @@
 //! ZIP, tar, and tar compressed by gzip. Sizes and counts are limited, names stay below the target folder, and links and
 //! devices are left out with the reason.
 
+mod zip;
+
 use std::fmt;
-use std::io::{self, Cursor, Read};
+use std::io::{self, Read};
 use std::path::{Component, Path, PathBuf};
 
 use flate2::read::MultiGzDecoder;
 use periplus_diagnostics::plain_words;
-use zip::ZipArchive;
-use zip::result::ZipError;
 
 /// Largest sum of the files of an archive: some worlds have 100 MB of textures, and a module of 32 bits has 4 GiB of
 /// memory for archive, files and session.
@@ -145,33 +145,24 @@ fn is_tar(bytes: &[u8]) -> bool {
 }
 
 fn read_zip(bytes: &[u8]) -> Result<ArchiveContents, UnpackError> {
-    let damaged = |error: ZipError| UnpackError::Damaged(error.to_string());
-    let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(damaged)?;
     let mut contents = ArchiveContents::default();
-    for index in 0..archive.len() {
-        contents.count_entry()?;
-        let raw = archive.by_index_raw(index).map_err(damaged)?;
-        let name = raw.name().map_err(damaged)?.into_owned();
-        let (is_dir, is_link) = (raw.is_dir(), raw.is_symlink());
-        let is_encrypted = raw.encrypted();
-        drop(raw);
-        let Some(path) = contents.path(Path::new(&name.replace('\\', "/")), &name)? else {
+    for entry in zip::directory(bytes, MAX_ENTRIES)? {
+        let name = &entry.name;
+        let Some(path) = ArchiveContents::path(Path::new(&name.replace('\\', "/")), name)? else {
             continue;
         };
-        if is_dir {
+        if entry.is_folder() {
             continue;
         }
-        if is_link {
-            contents.leave_out(&name, "a link");
+        if entry.is_link {
+            contents.leave_out(name, "a link");
             continue;
         }
-        if is_encrypted {
-            return Err(UnpackError::Encrypted(name));
+        if entry.is_encrypted {
+            return Err(UnpackError::Encrypted(entry.name));
         }
-        let mut entry = archive
-            .by_index(index)
-            .map_err(|error| UnpackError::Damaged(format!("`{name}`: {error}")))?;
-        contents.add(path, &mut entry)?;
+        let content = zip::content(bytes, &entry, contents.rest())?;
+        contents.push(path, content);
     }
     Ok(contents)
 }
@@ -187,7 +178,7 @@ fn read_tar(stream: impl Read) -> Result<ArchiveContents, UnpackError> {
         let path = entry.path()?.into_owned();
         let name = path.to_string_lossy().into_owned();
         let kind = entry.header().entry_type();
-        let Some(path) = contents.path(&path, &name)? else { continue };
+        let Some(path) = ArchiveContents::path(&path, &name)? else { continue };
         if kind.is_dir() || kind.is_pax_global_extensions() {
             continue;
         }
@@ -208,7 +199,7 @@ impl ArchiveContents {
     }
 
     /// Relative path of an entry; none for clutter and for the root.
-    fn path(&mut self, path: &Path, name: &str) -> Result<Option<PathBuf>, UnpackError> {
+    fn path(path: &Path, name: &str) -> Result<Option<PathBuf>, UnpackError> {
         let mut relative = PathBuf::new();
         for component in path.components() {
             match component {
@@ -227,16 +218,25 @@ impl ArchiveContents {
         Ok((!relative.as_os_str().is_empty()).then_some(relative))
     }
 
+    /// Bytes that further files may have.
+    fn rest(&self) -> u64 {
+        MAX_UNPACKED_BYTES - self.bytes
+    }
+
+    fn push(&mut self, path: PathBuf, content: Vec<u8>) {
+        self.bytes += content.len() as u64;
+        self.files.push((path, content));
+    }
+
     /// Reads the content of an entry, up to the limit for all.
     fn add(&mut self, path: PathBuf, entry: &mut dyn Read) -> Result<(), UnpackError> {
-        let rest = MAX_UNPACKED_BYTES - self.bytes;
         let mut content = Vec::new();
-        let read = entry.take(rest + 1).read_to_end(&mut content)? as u64;
-        if read > rest {
+        // One byte more shows that there is more.
+        entry.take(self.rest() + 1).read_to_end(&mut content)?;
+        if content.len() as u64 > self.rest() {
             return Err(UnpackError::TooLarge);
         }
-        self.bytes += read;
-        self.files.push((path, content));
+        self.push(path, content);
         Ok(())
     }
 
@@ -254,20 +254,43 @@ mod tests {
     use std::io::Write as _;
 
     use flate2::Compression;
-    use flate2::write::GzEncoder;
+    use flate2::write::{DeflateEncoder, GzEncoder};
     use proptest::prelude::*;
-    use zip::ZipWriter;
-    use zip::write::SimpleFileOptions;
 
     use super::*;
 
+    /// Headers of a ZIP archive by hand: each file deflated, then the directory and its end.
     fn zip(files: &[(&str, &[u8])]) -> Vec<u8> {
-        let mut writer = ZipWriter::new(Cursor::new(Vec::new()));
+        let (mut bytes, mut directory) = (Vec::new(), Vec::new());
         for (name, content) in files {
-            writer.start_file(*name, SimpleFileOptions::default()).unwrap();
-            writer.write_all(content).unwrap();
+            let mut encoder = DeflateEncoder::new(Vec::new(), Compression::best());
+            encoder.write_all(content).unwrap();
+            let packed = encoder.finish().unwrap();
+            // From the flags to the length of the extra field; both headers have them.
+            let mut common = vec![0, 0, 8, 0, 0, 0, 0, 0];
+            common.extend(crc32fast::hash(content).to_le_bytes());
+            common.extend((packed.len() as u32).to_le_bytes());
+            common.extend((content.len() as u32).to_le_bytes());
+            common.extend((name.len() as u16).to_le_bytes());
+            common.extend([0, 0]);
+            directory.extend(b"PK\x01\x02\x14\x00\x14\x00");
+            directory.extend(&common);
+            directory.extend([0; 10]);
+            directory.extend((bytes.len() as u32).to_le_bytes());
+            directory.extend(name.as_bytes());
+            bytes.extend(b"PK\x03\x04\x14\x00");
+            bytes.extend(&common);
+            bytes.extend(name.as_bytes());
+            bytes.extend(&packed);
         }
-        writer.finish().unwrap().into_inner()
+        let (position, count) = (bytes.len() as u32, files.len() as u16);
+        bytes.extend(&directory);
+        bytes.extend(b"PK\x05\x06\0\0\0\0");
+        bytes.extend([count.to_le_bytes(), count.to_le_bytes()].concat());
+        bytes.extend((directory.len() as u32).to_le_bytes());
+        bytes.extend(position.to_le_bytes());
+        bytes.extend([0, 0]);
+        bytes
     }
 
     fn tar(files: &[(&str, &[u8])]) -> Vec<u8> {
@@ -307,6 +330,33 @@ mod tests {
         check(&zip(files), files);
         check(&tar(files), files);
         check(&gzip(&tar(files)), files);
+    }
+
+    /// Archives that Python's `tarfile` and `zipfile` made, with a long name and a link.
+    #[test]
+    fn archives_of_another_program_are_read() {
+        let robot = |bytes: &[u8], name: &str| {
+            let contents = read(bytes).unwrap();
+            let found = contents.files.iter().find(|(path, _)| path.ends_with(name));
+            (found.unwrap().1.len(), contents.left_out)
+        };
+        let zip = include_bytes!("../../../../fuzz/seeds/archive/package.zip");
+        assert_eq!(robot(zip, "bot/a.urdf"), (85, Vec::new()));
+        let link = vec!["`bot/link` is a link".to_owned()];
+        let tar = include_bytes!("../../../../fuzz/seeds/archive/package.tar");
+        assert_eq!(robot(tar, "a.urdf"), (17, link.clone()));
+        let packed = include_bytes!("../../../../fuzz/seeds/archive/package.tar.gz");
+        assert_eq!(robot(packed, "a.urdf"), (17, link));
+    }
+
+    #[test]
+    fn a_wrong_checksum_is_reported() {
+        let mut bytes = zip(&[("a", b"hello")]);
+        // The checksum is at 16 in the entry of the directory.
+        let at = bytes.windows(4).position(|it| it == b"PK\x01\x02").unwrap();
+        bytes[at + 16] ^= 1;
+        let error = read(&bytes).unwrap_err().to_string();
+        assert!(error.contains("`a` has a wrong checksum"), "{error}");
     }
 
     #[test]
