@@ -46,7 +46,8 @@ fn add_world(file: &str, files: &mut BTreeSet<String>) {
     for part in text.split("model://").skip(1) {
         let end = part.find(|c: char| !c.is_ascii_alphanumeric() && c != '_').unwrap_or(part.len());
         let model = format!("worlds/models/{}", &part[..end]);
-        if files.contains(&format!("{model}/model.config")) {
+        // Comments name the scheme alone.
+        if end == 0 || files.contains(&format!("{model}/model.config")) {
             continue;
         }
         add_folder(&model, files);
