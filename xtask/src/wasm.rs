@@ -1,7 +1,7 @@
 //! The simulator in WebAssembly: the crates that must compile for it, the module of the browser tab, and its bag,
 //! which must be that of the native program byte for byte.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::step::{Failed, build_program, cargo, root, run, timed};
@@ -62,7 +62,33 @@ pub(crate) fn all(seconds: u32) -> Result<(), Failed> {
         return Ok(());
     }
     timed("wasm: periplus", build_program)?;
-    timed("wasm: the same bag as the native program", || same_bag(seconds))
+    timed("wasm: the same bag as the native program", || same_bag(seconds))?;
+    timed("wasm: sessions from files, checks, archives and maps", same_files)
+}
+
+/// A log of an old scanner, with loops; it is outside of the repository.
+const LOG: &str = "../shared/datasets/intel/raw.clf";
+
+/// Runs files of the repository in the module and in the native program, and compares the results.
+fn same_files() -> Result<(), Failed> {
+    let mut command = Command::new("node");
+    command.arg(root().join("crates/apps/tab/scripts/files.mjs")).arg(module());
+    command
+        .arg(root().join("target/release/periplus"))
+        .arg(root())
+        .arg(root().join("target/tab/files"));
+    let log = root().join(LOG);
+    if log.is_file() {
+        command.arg(log);
+    } else {
+        println!("SKIPPED: no {LOG} to map");
+    }
+    run(&mut command, "the results must be equal; see above")
+}
+
+/// Path of the module.
+fn module() -> PathBuf {
+    root().join("target").join(TARGET).join("wasm/periplus_tab.wasm")
 }
 
 fn same_bag(seconds: u32) -> Result<(), Failed> {
@@ -74,7 +100,7 @@ fn same_bag(seconds: u32) -> Result<(), Failed> {
     let mut command = Command::new(root().join("target/release/periplus"));
     command.args(["demo", "--headless", "--bag-compression", "none", "--duration", &seconds]);
     run(command.arg("--out").arg(&native), "see above")?;
-    let module = root().join("target").join(TARGET).join("wasm/periplus_tab.wasm");
+    let module = module();
     let mut command = Command::new("node");
     command.arg(root().join("crates/apps/tab/scripts/demo.mjs")).arg(&module).arg(&seconds);
     command.arg(out.join("tab.mcap")).arg(native.join("demo.mcap"));

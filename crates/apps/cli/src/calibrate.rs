@@ -23,12 +23,13 @@ use periplus_msgs::sensor_msgs::{Imu, JointState};
 use self::report::Report;
 use self::robot::{NominalRobot, nominal_robot};
 use crate::error::CliError;
-use crate::log::{Log, LogOptions, LoggedScan};
+use crate::log::LogOptions;
 use crate::options::{SearchOptions, split};
 use crate::run_options::positive;
 use crate::terminal::{complain, say, with_setting};
 use crate::{paths, score};
 use periplus_session::recorded::{each, has_type};
+use periplus_session::scan_log::{LoggedScan, ScanLog};
 
 /// Calibrate wheels, scanner and IMU of a robot with two driven wheels from a recorded drive
 ///
@@ -77,7 +78,7 @@ const MATCH_PERIOD_S: f64 = 0.4;
 
 pub(crate) fn run(options: &CalibrateOptions) -> Result<ExitCode, CliError> {
     let nominal = nominal_robot(options)?;
-    let log = Log::open(&options.recording, &options.log)?;
+    let log = ScanLog::open(&options.recording, &options.log.selection())?;
     log.faults.iter().for_each(|fault| complain(fault));
     let is_carmen = log.kind.starts_with("CARMEN");
     let imu = if is_carmen { Vec::new() } else { imu_samples(&paths::bag(&options.recording)?)? };
@@ -205,7 +206,7 @@ fn imu_samples(bag: &Bag) -> Result<Vec<ImuSample>, CliError> {
 }
 
 /// Wheels that would have turned as the odometry of the log has it.
-fn odometry_wheels(log: &Log, drive: &DifferentialDrive) -> WheelTrack {
+fn odometry_wheels(log: &ScanLog, drive: &DifferentialDrive) -> WheelTrack {
     let pose = |it: &LoggedScan| Some((it.scan.time_ns as f64 * 1e-9, it.odom_from_base?));
     WheelTrack::from_odometry(log.scans.iter().filter_map(pose), drive)
 }

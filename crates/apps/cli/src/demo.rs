@@ -6,8 +6,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use clap::{Args, ValueEnum};
-use periplus_bags::Compression;
+use clap::Args;
 use periplus_geometry::Pose2;
 use periplus_maps::BesideTruth;
 use periplus_os::Stopwatch;
@@ -21,7 +20,7 @@ use periplus_sim::{Options, Search};
 
 use crate::error::CliError;
 use crate::page::PageOptions;
-use crate::run_options::{exit_code, positive};
+use crate::run_options::{BagCompression, exit_code, positive};
 use crate::{paths, terminal};
 
 pub(crate) use periplus_session::demo::composition;
@@ -122,28 +121,6 @@ impl DemoOptions {
             opens_browser: !self.no_browser,
             hint: " (Ctrl-C ends the demo)",
             ..self.page.settings(PageContext { world, ..PageContext::default() })
-        }
-    }
-}
-
-/// Compression of the messages of a bag.
-#[derive(Clone, Copy, Debug, Default, ValueEnum)]
-enum BagCompression {
-    /// Larger files, quickest
-    None,
-    /// LZ4 frames, which are fast to write
-    Lz4,
-    /// Smallest files
-    #[default]
-    Zstd,
-}
-
-impl From<BagCompression> for Compression {
-    fn from(compression: BagCompression) -> Self {
-        match compression {
-            BagCompression::None => Self::None,
-            BagCompression::Lz4 => Self::Lz4,
-            BagCompression::Zstd => Self::Zstd,
         }
     }
 }

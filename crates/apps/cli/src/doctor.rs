@@ -2,9 +2,6 @@
 
 mod files;
 mod network_test;
-mod parameters;
-
-pub(crate) use parameters::examine as examine_parameters;
 
 use std::io::{self, Write};
 use std::process::ExitCode;

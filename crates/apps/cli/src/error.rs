@@ -8,6 +8,8 @@ use periplus_bags::files::BagError;
 use periplus_diagnostics::plain_words;
 use periplus_graph::GraphError;
 use periplus_session::files::FileError;
+use periplus_session::log_mapping::LogMappingError;
+use periplus_session::scan_log::ScanLogError;
 use periplus_session::{PageError, RunError};
 
 use crate::terminal;
@@ -92,6 +94,26 @@ impl From<RunError> for CliError {
 impl From<FileError> for CliError {
     fn from(error: FileError) -> Self {
         Self::failed(error)
+    }
+}
+
+impl From<ScanLogError> for CliError {
+    fn from(error: ScanLogError) -> Self {
+        match error {
+            ScanLogError::Output(error) => Self::Output(error),
+            error => Self::failed(error),
+        }
+    }
+}
+
+impl From<LogMappingError> for CliError {
+    fn from(error: LogMappingError) -> Self {
+        match error {
+            LogMappingError::Reported => Self::Reported(1),
+            LogMappingError::Output(error) => Self::Output(error),
+            LogMappingError::Log(error) => error.into(),
+            error => Self::failed(error),
+        }
     }
 }
 

@@ -3,20 +3,12 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use periplus_diagnostics::{Diagnostics, Severity, SourceMap};
-use periplus_loader::{LoadedFile, load};
+use periplus_diagnostics::Severity;
+use periplus_loader::LoadedFile;
+pub use periplus_session::check::CheckedFile;
 
 use crate::options::{ConvertOptions, Format, SearchOptions};
 use crate::terminal::with_setting;
-
-/// Checked file.
-#[derive(Debug)]
-pub struct CheckedFile {
-    /// The file with its findings.
-    pub loaded: LoadedFile,
-    /// Findings of the nodes that read the file, for parameter files.
-    pub more: Vec<(Diagnostics, SourceMap)>,
-}
 
 /// Checks a file of any format. `arguments` are those of xacro; `resource_path` are folders to search.
 #[must_use]
@@ -25,14 +17,7 @@ pub fn check_file(
     arguments: Vec<(String, String)>,
     resource_path: &[PathBuf],
 ) -> CheckedFile {
-    with_setting(resource_path, arguments, |setting| {
-        let mut loaded = load(file, setting);
-        let unknown: Vec<String> =
-            loaded.unknown_arguments(&setting.arguments).into_iter().map(str::to_owned).collect();
-        unknown.iter().for_each(|name| loaded.warn_of_argument(name));
-        let more = crate::check::beyond(file, &mut loaded);
-        CheckedFile { loaded, more }
-    })
+    with_setting(resource_path, arguments, |setting| CheckedFile::read_alone(file, setting))
 }
 
 /// Target of a conversion.

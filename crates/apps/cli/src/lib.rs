@@ -42,7 +42,6 @@ mod slam;
 mod sweep;
 mod teleop;
 mod terminal;
-mod timing;
 mod verbs;
 mod view;
 

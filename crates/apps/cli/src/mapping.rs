@@ -34,12 +34,11 @@ impl MappingOptions {
         self.slam_node.is_some() || self.slam_out.is_some()
     }
 
-    /// Requested node; with `is_usual` one with default parameters runs without `--slam`.
-    pub(crate) fn request(&self, is_usual: bool) -> Option<MappingRequest> {
-        let file = self.slam.clone().or(is_usual.then_some(None))?;
-        Some(MappingRequest {
-            source: MappingSource::File(file, self.slam_node),
+    /// Parameters and results, with default parameters where mapping is not requested.
+    pub(crate) fn request(&self) -> MappingRequest {
+        MappingRequest {
+            source: MappingSource::File(self.slam.clone().flatten(), self.slam_node),
             out: self.slam_out.clone(),
-        })
+        }
     }
 }

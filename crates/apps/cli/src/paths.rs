@@ -4,9 +4,7 @@ use std::path::Path;
 
 use periplus_bags::files::{Bag, BagError};
 
-pub(crate) use periplus_session::files::{
-    advice, make_folder, read, reader, text, write, write_by,
-};
+pub(crate) use periplus_session::files::{advice, make_folder, text, write};
 
 use crate::error::CliError;
 

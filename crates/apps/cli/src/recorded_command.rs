@@ -3,9 +3,10 @@
 use periplus_os::shell_word;
 
 /// Options without influence on the result; the second part is true for options with a value.
-const OMITTED_OPTIONS: [(&str, bool); 16] = [
+const OMITTED_OPTIONS: [(&str, bool); 17] = [
     ("--threads", true),
     ("--record", true),
+    ("--bag-compression", true),
     ("--token", true),
     ("--world-out", true),
     ("--slam-out", true),

@@ -4,6 +4,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
+use periplus_bags::Compression;
 use periplus_gz_msgs::Dialect;
 use periplus_gz_transport::DiscoveryReach;
 use periplus_session::{RecordingRequest, Ros2Reach, RunEnd};
@@ -24,6 +25,9 @@ pub(crate) struct TopicSelection {
     /// Record the true poses of all models, too, on /gazebo/model_states: `periplus score` and `periplus compare` read them
     #[arg(long, requires = "record")]
     record_truth: bool,
+    /// Compression of the bag
+    #[arg(long, value_enum, default_value_t, value_name = "KIND", requires = "record")]
+    bag_compression: BagCompression,
 }
 
 impl TopicSelection {
@@ -40,7 +44,30 @@ impl TopicSelection {
             topics.as_ref().is_none_or(|topics| topics.is_match(name))
                 && !exclude.as_ref().is_some_and(|exclude| exclude.is_match(name))
         });
-        Some(RecordingRequest::new(path, wanted))
+        let compression = self.bag_compression.into();
+        Some(RecordingRequest { compression, ..RecordingRequest::new(path, wanted) })
+    }
+}
+
+/// Compression of the messages of a bag.
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+pub(crate) enum BagCompression {
+    /// Larger files, quickest
+    None,
+    /// LZ4 frames, which are fast to write
+    Lz4,
+    /// Smallest files
+    #[default]
+    Zstd,
+}
+
+impl From<BagCompression> for Compression {
+    fn from(compression: BagCompression) -> Self {
+        match compression {
+            BagCompression::None => Self::None,
+            BagCompression::Lz4 => Self::Lz4,
+            BagCompression::Zstd => Self::Zstd,
+        }
     }
 }
 

@@ -10,7 +10,7 @@ use clap::{Args, ValueEnum};
 use periplus_graph::Arguments;
 use periplus_loader::LoadContext;
 use periplus_os::Stopwatch;
-use periplus_session::nodes::{EstimatorRequest, NavigationDefaults, NavigationRequest};
+use periplus_session::nodes::EstimatorSelection;
 use periplus_session::{
     GazeboSettings, NoTask, PageContext, RunSettings, SessionBuilder, SimulationSession, stop,
 };
@@ -192,7 +192,7 @@ pub(crate) fn run(
         .command(Some(recorded))
         .computed(options.computed())
         .driver(driver)
-        .estimators(options.estimators())
+        .estimators(options.selection().request(options.robots.placements.len()))
         .ros2(options.ros2.map(Into::into))
         .gazebo(options.gazebo())
         .page(page)
@@ -238,12 +238,11 @@ impl SimOptions {
                 path.display()
             )));
         }
-        if (self.stack || self.navigation.is_some()) && self.robots.placements.len() > 1 {
-            return Err(CliError::usage(
-                "--stack and --navigation support one robot; start the nodes of several robots with a launch file",
-            ));
+        let selection = self.selection();
+        if let Some(why) = selection.refusal(self.robots.placements.len()) {
+            return Err(CliError::usage(why));
         }
-        if self.mapping.needs_mapping() && !self.runs_mapping() {
+        if self.mapping.needs_mapping() && !selection.runs_mapping() {
             return Err(CliError::failed("`--slam-node` and `--slam-out` require `--slam`"));
         }
         Ok(())
@@ -280,30 +279,15 @@ impl SimOptions {
         Some(Box::new(move |name| topics.is_match(name)))
     }
 
-    /// Returns true if a mapping node runs, requested or as a part of the stack.
-    fn runs_mapping(&self) -> bool {
-        let is_usual = self.stack || self.navigation.is_some();
-        self.mapping.is_wanted() || (is_usual && !self.localization.is_wanted())
-    }
-
-    /// Estimator nodes. For several robots their topics are set by the user.
-    fn estimators(&self) -> EstimatorRequest {
-        let needs_topics = self.stack
-            || self.navigation.is_some()
-            || self.mapping.is_wanted()
-            || self.localization.is_wanted();
-        let navigation = self.navigation.clone().map(|parameters| NavigationRequest {
-            parameters,
-            defaults: NavigationDefaults::default(),
-        });
-        EstimatorRequest {
-            // The servers own both costmaps.
-            has_stack: self.stack && navigation.is_none(),
-            detects_robot: needs_topics && self.robots.placements.len() <= 1,
+    /// Requested estimator nodes.
+    fn selection(&self) -> EstimatorSelection {
+        EstimatorSelection {
+            has_stack: self.stack,
+            navigation: self.navigation.clone(),
             costmaps: self.costmaps.request(),
             localization: self.localization.files(),
-            mapping: self.mapping.request(self.runs_mapping()),
-            navigation,
+            is_mapping_requested: self.mapping.is_wanted(),
+            mapping: self.mapping.request(),
         }
     }
 

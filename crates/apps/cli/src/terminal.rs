@@ -3,8 +3,7 @@
 use std::path::PathBuf;
 
 use indicatif::{ProgressBar, ProgressStyle};
-use periplus_diagnostics::Severity;
-use periplus_loader::{LoadContext, LoadedFile};
+use periplus_loader::LoadContext;
 
 pub(crate) use periplus_session::terminal::{
     complain, diagnostics, findings, print_findings, processors, say, search, working_folder,
@@ -12,18 +11,6 @@ pub(crate) use periplus_session::terminal::{
 
 /// Exit code after Ctrl-C, as in shells.
 pub(crate) const INTERRUPTED: u8 = 130;
-
-/// Returns a count such as `2 errors, 1 warning`, or `no findings`.
-pub(crate) fn counts(loaded: &LoadedFile) -> String {
-    let kinds = [Severity::Error, Severity::Warning, Severity::Hint];
-    let parts: Vec<String> = kinds
-        .into_iter()
-        .map(|severity| (loaded.diagnostics.count(severity), severity.name()))
-        .filter(|(count, _)| *count > 0)
-        .map(|(count, name)| format!("{count} {name}{}", if count == 1 { "" } else { "s" }))
-        .collect();
-    if parts.is_empty() { "no findings".to_owned() } else { parts.join(", ") }
-}
 
 /// Progress bar; hidden where stderr is not a terminal.
 pub(crate) fn bar(length: u64, what: &str, quiet: bool) -> ProgressBar {

@@ -245,7 +245,7 @@ impl SessionBuilder {
 
     /// Prints the findings of the files. Returns false when a requested part is missing.
     fn print_file_findings(&self) -> Result<bool, RunError> {
-        let mut err = anstream::stderr().lock();
+        let mut err = terminal::messages();
         let mut is_whole = true;
         for loaded in &self.composition.files {
             is_whole &= !loaded.diagnostics.has_errors();

@@ -5,7 +5,9 @@
 //! works between its steps, and a [`RunReport`] sums it up. A [`LiveGraph`] is a graph without a
 //! simulation on ROS 2. Progress and findings are printed to stderr.
 
+mod arguments;
 mod builder;
+pub mod check;
 pub mod demo;
 mod description;
 pub mod difference;
@@ -13,6 +15,9 @@ mod error;
 pub mod files;
 #[cfg(not(target_family = "wasm"))]
 mod live;
+pub mod log_mapping;
+#[cfg(any(test, target_family = "wasm"))]
+mod messages;
 #[cfg(not(target_family = "wasm"))]
 mod network;
 #[cfg(target_family = "wasm")]
@@ -31,12 +36,15 @@ pub mod recorded;
 mod recording;
 mod report;
 pub mod rerun;
+pub mod scan_log;
 mod session;
 mod steps;
 #[cfg(not(target_family = "wasm"))]
 pub mod stop;
 pub mod terminal;
+pub mod timing;
 
+pub use arguments::read_arguments;
 pub use builder::{RecordingRequest, SessionBuilder};
 pub use description::with_version;
 pub use error::RunError;

@@ -6,6 +6,7 @@ mod localization;
 mod mapping;
 mod navigation;
 pub(crate) mod profile;
+mod selection;
 
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -23,6 +24,7 @@ pub use navigation::{
     PlanningMap, RobotBase, pose_text,
 };
 pub use profile::RobotProfile;
+pub use selection::EstimatorSelection;
 
 use crate::error::RunError;
 use crate::terminal;

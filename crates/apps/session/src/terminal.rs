@@ -8,19 +8,36 @@ use periplus_diagnostics::{Diagnostic, Diagnostics, RenderStyle, SourceMap, rend
 use periplus_loader::LoadedFile;
 use periplus_sim::Search;
 
+#[cfg(target_family = "wasm")]
+pub use crate::messages::take_messages;
+
+/// Messages to the user: stderr, or in a browser tab the log that the page takes.
+#[cfg(not(target_family = "wasm"))]
+#[must_use]
+pub fn messages() -> impl Write {
+    anstream::stderr().lock()
+}
+
+/// Messages to the user: stderr, or in a browser tab the log that the page takes.
+#[cfg(target_family = "wasm")]
+#[must_use]
+pub fn messages() -> impl Write {
+    crate::messages::MessageLog
+}
+
 /// Writes an error line to stderr.
 pub fn complain(words: &str) {
-    let _ = writeln!(anstream::stderr(), "error: {words}");
+    let _ = writeln!(messages(), "error: {words}");
 }
 
 /// Writes a warning line to stderr.
 pub fn warn(words: &str) {
-    let _ = writeln!(anstream::stderr(), "warning: {words}");
+    let _ = writeln!(messages(), "warning: {words}");
 }
 
 /// Writes an informational line to stderr.
 pub fn say(words: &str) {
-    let _ = writeln!(anstream::stderr(), "{words}");
+    let _ = writeln!(messages(), "{words}");
 }
 
 /// Writes the findings of a file; colours are stripped where the output does not show them.
@@ -71,12 +88,22 @@ pub fn diagnostics(
 /// # Errors
 /// A failed write.
 pub fn print_findings(findings: &Diagnostics) -> io::Result<()> {
-    diagnostics(&mut anstream::stderr().lock(), findings, &SourceMap::new())
+    diagnostics(&mut messages(), findings, &SourceMap::new())
+}
+
+/// Returns a text without colours.
+#[must_use]
+pub fn without_colours(text: &str) -> String {
+    anstream::adapter::strip_str(text).to_string()
 }
 
 /// Working folder of the user.
 #[must_use]
 pub fn working_folder() -> PathBuf {
+    if cfg!(target_family = "wasm") {
+        // Files in memory have absolute paths.
+        return PathBuf::from("/");
+    }
     std::env::current_dir().unwrap_or_default()
 }
 

@@ -97,4 +97,14 @@ export class Core {
   writeFile(path, content) {
     this.#call("periplus_write_file", ...this.#text(path), ...this.#pass(content));
   }
+
+  /** Executes a function with arguments in JSON, such as `check`, and returns its answer. */
+  call(name, args = {}) {
+    return JSON.parse(new TextDecoder().decode(this.callBytes(name, args)));
+  }
+
+  /** As `call`, for an answer of bytes, such as `map_preview`. */
+  callBytes(name, args = {}) {
+    return this.#call("periplus_call", ...this.#text(JSON.stringify({ [name]: args })));
+  }
 }

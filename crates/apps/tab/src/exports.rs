@@ -13,6 +13,7 @@ use std::time::Duration;
 
 use periplus_os::fs;
 
+use crate::calls::{Calls, with_messages};
 use crate::tab::{Tab, TabFrame};
 
 #[link(wasm_import_module = "periplus")]
@@ -25,6 +26,7 @@ unsafe extern "C" {
 
 thread_local! {
     static TAB: RefCell<Option<Tab>> = const { RefCell::new(None) };
+    static CALLS: RefCell<Calls> = RefCell::default();
     static ANSWER: RefCell<Vec<u8>> = const { RefCell::new(Vec::new()) };
 }
 
@@ -96,7 +98,8 @@ pub extern "C" fn periplus_open(options: *mut u8, length: usize) -> u32 {
     prepare();
     let options = passed(options, length);
     TAB.with_borrow_mut(|tab| *tab = None);
-    answer(Tab::open_json(&options).map(|tab| {
+    let opened = Tab::open_json(&options).map_err(|error| with_messages(&error.to_string()));
+    answer(opened.map(|tab| {
         TAB.with_borrow_mut(|kept| *kept = Some(tab));
         Vec::new()
     }))
@@ -182,4 +185,14 @@ pub extern "C" fn periplus_write_file(
     let folder = Path::new(&path).parent().unwrap_or(Path::new("/"));
     let written = fs::create_dir_all(folder).and_then(|()| fs::write(&path, content));
     answer(written.map(|()| Vec::new()).map_err(|error| format!("`{path}`: {error}")))
+}
+
+/// Executes a call in JSON, such as a check of files, and leaves its answer; see [`crate::calls::Call`].
+#[unsafe(no_mangle)]
+pub extern "C" fn periplus_call(call: *mut u8, length: usize) -> u32 {
+    prepare();
+    let call = passed(call, length);
+    answer(
+        TAB.with_borrow_mut(|tab| CALLS.with_borrow_mut(|calls| calls.answer(&call, tab.as_mut()))),
+    )
 }

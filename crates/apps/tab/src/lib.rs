@@ -4,10 +4,16 @@
 //! memory. In WebAssembly the module `exports` offers it as functions that take and return addresses; they
 //! need no generated code on the side of JavaScript.
 
+pub mod calls;
 #[cfg(target_family = "wasm")]
 pub mod exports;
-mod options;
+pub mod log_mapping;
+mod opened;
+pub mod options;
+mod results;
+mod run;
 mod tab;
+pub mod unpack;
 
-pub use options::{DemoOptions, TabOptions};
+pub use options::{DemoOptions, RunOptions, TabOptions};
 pub use tab::{Tab, TabError, TabFrame};

@@ -1,15 +1,13 @@
 //! A session with one client.
 
 use std::fmt;
-use std::path::Path;
 
-use periplus_bags::Compression;
-use periplus_os::{Stopwatch, fs};
-use periplus_session::demo::{self, DemoTask, WORLD_NAME};
-use periplus_session::{PageContext, PageHub, RecordingRequest, RunError, SimulationSession};
-use periplus_sim::{Diverged, Options, RecordError, RecordingSummary, Search};
+use periplus_session::demo::DemoTask;
+use periplus_session::{PageHub, RunError, SimulationSession};
+use periplus_sim::{Diverged, RecordError, RecordingSummary};
 use periplus_web::foxglove::{ClientSession, FrameKind, OutboxItem};
 
+use crate::opened::OpenedSession;
 use crate::options::TabOptions;
 
 /// A message to the client.
@@ -38,6 +36,8 @@ pub enum TabError {
     Recording(RecordError),
     /// A folder cannot be created in memory.
     Folder(std::io::Error),
+    /// Options that do not go together, with the reason and what to do.
+    Refused(String),
 }
 
 impl fmt::Display for TabError {
@@ -49,6 +49,7 @@ impl fmt::Display for TabError {
             Self::Diverged(error) => error.fmt(f),
             Self::Recording(error) => write!(f, "the bag is incomplete: {error}"),
             Self::Folder(error) => write!(f, "the folder of the results: {error}"),
+            Self::Refused(why) => f.write_str(why),
         }
     }
 }
@@ -84,27 +85,8 @@ impl Tab {
     /// # Errors
     /// When a part cannot start.
     pub fn open(options: &TabOptions) -> Result<Self, TabError> {
-        let options = &options.demo;
-        let simulation = Options { seed: options.seed, ..Options::default() };
-        let out = options.out.as_deref();
-        if let Some(out) = out {
-            fs::create_dir_all(out).map_err(TabError::Folder)?;
-        }
-        let recording = out.map(|out| RecordingRequest {
-            compression: Compression::None,
-            ..demo::recording(&out.join("demo.mcap"))
-        });
-        let search = Search { working_folder: Path::new("/").to_owned(), ..Search::default() };
-        let mut session = demo::builder(simulation, out, Stopwatch::start())
-            .factor(options.is_paced.then_some(1.0))
-            .search(search)
-            .recording(recording)
-            .build()?;
-        let end_ns = options.duration_s.map(|seconds| (seconds * 1e9).round() as i64);
-        let task = DemoTask::join(session.graph(), options.explore, out.is_some(), end_ns)
-            .map_err(RunError::from)?;
-        let context = PageContext { world: Some(WORLD_NAME.to_owned()), ..PageContext::default() };
-        let hub = (!options.headless).then(|| session.open_hub(&context)).transpose()?;
+        let OpenedSession { mut session, task, context } = OpenedSession::open(options)?;
+        let hub = context.map(|context| session.open_hub(&context)).transpose()?;
         let client =
             hub.as_ref().map(|hub| hub.hub.join().ok_or(TabError::NoClient)).transpose()?;
         Ok(Self { client, hub, task, session })
@@ -161,6 +143,11 @@ impl Tab {
             OutboxItem::Nothing => None,
             OutboxItem::End(why) => Some(TabFrame::End(why)),
         }
+    }
+
+    /// The session.
+    pub(crate) fn session(&self) -> &SimulationSession {
+        &self.session
     }
 
     /// Closes the recording, if there is one; its file is complete then.

@@ -143,7 +143,9 @@ impl Gmapping {
                 .min(Settings::default().range_max_m),
             ..Settings::default()
         };
-        let threads = settings.threads.clamp(1, settings.particles.max(1));
+        // WebAssembly has no threads; results do not depend on their number.
+        let max_threads = if cfg!(target_family = "wasm") { 1 } else { settings.particles.max(1) };
+        let threads = settings.threads.clamp(1, max_threads);
         Self {
             front: Slam::new(front),
             particles: Vec::new(),

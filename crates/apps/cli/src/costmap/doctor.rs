@@ -1,14 +1,12 @@
 //! `periplus doctor costmap`.
 
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
 use periplus_costmap::Nav2Release;
-use periplus_diagnostics::{Diagnostics, SourceMap};
-use periplus_session::RunError;
-use periplus_session::nodes::{CostmapFile, read_costmap_text, read_costmaps};
+use periplus_session::nodes::read_costmaps;
 
 use crate::error::CliError;
 use crate::terminal;
@@ -28,26 +26,9 @@ pub(crate) struct DoctorCostmapOptions {
     compat: Option<Nav2Release>,
 }
 
-/// Findings on the costmaps of a named text.
-pub(crate) fn findings(path: &Path, text: String) -> Result<(Diagnostics, SourceMap), RunError> {
-    let mut file = read_costmap_text(&path.display().to_string(), text, None)?;
-    add_complaints(&mut file);
-    Ok((file.diagnostics, file.sources))
-}
-
-/// Adds the findings that only the layers know.
-fn add_complaints(file: &mut CostmapFile) {
-    for (_, config) in &file.configs {
-        let mut costmap = config.build();
-        for finding in costmap.all_mut().flat_map(|layer| layer.diagnostics()) {
-            file.diagnostics.push(finding);
-        }
-    }
-}
-
 pub(crate) fn run(options: &DoctorCostmapOptions) -> Result<ExitCode, CliError> {
     let mut file = read_costmaps(&options.file, options.compat)?;
-    add_complaints(&mut file);
+    file.add_layer_findings();
     let mut out = anstream::stdout().lock();
     terminal::diagnostics(&mut out, &file.diagnostics, &file.sources)?;
     for (name, config) in &file.configs {

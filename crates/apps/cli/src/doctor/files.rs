@@ -11,9 +11,10 @@ use periplus_graph::NodeSettings;
 use periplus_loader::FileFormat;
 use periplus_ros2cli::doctor::{SystemObserver, examine};
 use periplus_ros2cli::{Failure, Seen};
+use periplus_session::check::examine_parameters;
 use periplus_sim::{AssetFiles, Options, Simulation, compose};
 
-use super::{DoctorOptions, parameters, tell};
+use super::{DoctorOptions, tell};
 use crate::error::CliError;
 use crate::options::split;
 use crate::terminal;
@@ -45,7 +46,7 @@ pub(super) fn run(options: &DoctorOptions) -> Result<ExitCode, CliError> {
     let mut found = Vec::new();
     let mut what: Vec<String> = Vec::new();
     for path in files.iter().filter(|path| is_yaml(path)) {
-        match parameters::examine(path) {
+        match examine_parameters(path) {
             Ok(findings) => found.extend(findings),
             Err(why) => {
                 return Err(CliError::failed(why));

@@ -14,11 +14,6 @@ pub(crate) struct BesideOptions {
 }
 
 impl BesideOptions {
-    /// Returns true if localization is requested.
-    pub(crate) fn is_wanted(&self) -> bool {
-        !self.localize.is_empty()
-    }
-
     /// Files of the map and of the parameters.
     pub(crate) fn files(&self) -> Vec<PathBuf> {
         self.localize.clone()

@@ -10,11 +10,11 @@ use periplus_localization::{Amcl, LocalizationState, LocalizationStatus, Setting
 use periplus_os::Stopwatch;
 use periplus_session::files::FileError;
 use periplus_session::picture;
+use periplus_session::scan_log::{LogSelection, ScanLog};
 
 use super::options::{self, LocalizeOptions};
 use super::report::Report;
 use crate::error::CliError;
-use crate::log::{Log, LogOptions};
 use crate::terminal;
 
 /// Number of log errors that are printed; the others are counted.
@@ -52,12 +52,12 @@ pub(super) fn run(
     let values = options.values()?;
     let map = options::map_grid(map_path)?;
     let frame = |name: &str| values.is_given(name).then(|| values.text(name)).flatten();
-    let input = LogOptions {
+    let input = LogSelection {
         odom_frame: frame("odom_frame_id").unwrap_or_else(|| options.input.odom_frame.clone()),
         base_frame: options.input.base_frame.clone().or_else(|| frame("base_frame_id")),
-        ..options.input.clone()
+        ..options.input.selection()
     };
-    let mut log = Log::open(log_path, &input)?;
+    let mut log = ScanLog::open(log_path, &input)?;
     if let Some(begin_ns) = log.scans.first().map(|it| it.scan.time_ns) {
         let skip_ns = (options.skip * 1e9) as i64;
         log.scans.retain(|it| it.scan.time_ns - begin_ns >= skip_ns);
@@ -101,7 +101,7 @@ pub(super) fn run(
 }
 
 /// Localizes one scan after the other.
-fn localize(amcl: &mut Amcl, log: &Log) -> Outcome {
+fn localize(amcl: &mut Amcl, log: &ScanLog) -> Outcome {
     let mut outcome = Outcome::default();
     let mut way_m = 0.0;
     let mut before: Option<Pose2> = None;

@@ -5,11 +5,11 @@ use std::path::Path;
 
 use periplus_localization::Amcl;
 use periplus_os::peak_memory_bytes;
+use periplus_session::scan_log::ScanLog;
+use periplus_session::timing::{cpu_s, steps_ms};
 use serde_json::{Map, Value, json};
 
 use super::offline::Outcome;
-use crate::log::Log;
-use crate::timing::{cpu_s, steps_ms};
 
 /// Report of a localization run.
 pub(super) struct Report<'a> {
@@ -17,7 +17,7 @@ pub(super) struct Report<'a> {
     pub(super) map_path: &'a Path,
     pub(super) out: &'a Path,
     pub(super) amcl: &'a Amcl,
-    pub(super) log: &'a Log,
+    pub(super) log: &'a ScanLog,
     pub(super) outcome: &'a Outcome,
     /// Time to read the log and the map.
     pub(super) loaded_s: f64,

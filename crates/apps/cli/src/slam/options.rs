@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use clap::builder::{OsStringValueParser, TypedValueParser as _};
 use periplus_nav_nodes::slam_toolbox::Program;
+use periplus_session::log_mapping::LogMappingRequest;
 use periplus_slam::Method;
 
 use crate::log::LogOptions;
@@ -77,6 +78,28 @@ pub(crate) struct SlamOptions {
     /// Print only errors
     #[arg(long, short)]
     pub(crate) quiet: bool,
+}
+
+impl SlamOptions {
+    /// Log, parameters and results.
+    pub(super) fn request(&self) -> LogMappingRequest {
+        LogMappingRequest {
+            log: self.log.clone(),
+            input: self.input.selection(),
+            out: self.out.clone(),
+            method: self.method,
+            parameters: self.parameters.clone(),
+            params_file: self.live.params_file.clone(),
+            seed: self.seed,
+            threads: self.threads,
+            resolution_m: self.resolution,
+            range_max_m: self.max_range,
+            is_without_loops: self.no_loops,
+            session: self.session.clone(),
+            session_out: self.save_session.clone(),
+            g2o_out: self.g2o.clone(),
+        }
+    }
 }
 
 /// Options of mapping on ROS 2.

@@ -21,6 +21,18 @@ pub struct CostmapFile {
     pub sources: SourceMap,
 }
 
+impl CostmapFile {
+    /// Adds the findings that only the layers know.
+    pub fn add_layer_findings(&mut self) {
+        for (_, config) in &self.configs {
+            let mut costmap = config.build();
+            for finding in costmap.all_mut().flat_map(|layer| layer.diagnostics()) {
+                self.diagnostics.push(finding);
+            }
+        }
+    }
+}
+
 /// Reads the costmaps of a file; those without parameters are left out.
 ///
 /// # Errors

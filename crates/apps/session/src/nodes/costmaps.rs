@@ -70,7 +70,7 @@ impl Costmaps {
         cells: Vec<FloorPoint>,
         images: Option<PathBuf>,
     ) -> Result<Self, RunError> {
-        terminal::diagnostics(&mut anstream::stderr().lock(), &file.diagnostics, &file.sources)?;
+        terminal::diagnostics(&mut terminal::messages(), &file.diagnostics, &file.sources)?;
         let mut costmaps = Self { cells, images, ..Self::default() };
         for (name, config) in file.configs {
             let made = CostmapNode::new(graph, name, config)

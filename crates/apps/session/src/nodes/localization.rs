@@ -165,7 +165,7 @@ pub fn amcl_parameters(
         || ParameterFile { tree: None, diagnostics: Diagnostics::new(), sources: SourceMap::new() };
     let ParameterFile { tree, mut diagnostics, sources } = file.unwrap_or_else(none);
     let values = read_parameters(tree.as_ref(), "amcl", words, &mut diagnostics);
-    terminal::diagnostics(&mut anstream::stderr().lock(), &diagnostics, &sources)?;
+    terminal::diagnostics(&mut terminal::messages(), &diagnostics, &sources)?;
     if diagnostics.has_errors() { Err(RunError::Reported) } else { Ok(values) }
 }
 

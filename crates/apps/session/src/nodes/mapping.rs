@@ -95,7 +95,7 @@ pub fn slam_parameters(
             None
         }
     };
-    terminal::diagnostics(&mut anstream::stderr().lock(), &diagnostics, &sources)?;
+    terminal::diagnostics(&mut terminal::messages(), &diagnostics, &sources)?;
     if is_for_other_nodes {
         return Err(RunError::NoParameters(format!(
             "{} has no parameters for slam_toolbox or slam_gmapping; leave the file out to map with the \

@@ -62,7 +62,7 @@ impl Navigation {
         let file = sources.add(name, text);
         let none = NavigationPlugins::new();
         let started = Self::start_from(graph, file, profile, &none, &sources, &mut diagnostics);
-        terminal::diagnostics(&mut anstream::stderr().lock(), &diagnostics, &sources)?;
+        terminal::diagnostics(&mut terminal::messages(), &diagnostics, &sources)?;
         started
     }
 

@@ -7,32 +7,33 @@ use periplus_params::{Given, ParamValues};
 use periplus_slam::Method;
 use periplus_slam::tables::{self, GmappingParams, SlamToolboxParams};
 
-use super::options::SlamOptions;
-use crate::log::LogOptions;
+use super::error::LogMappingError;
+use super::request::LogMappingRequest;
+use crate::files;
+use crate::scan_log::LogSelection;
 
 /// Parameters with their findings.
-pub(super) struct Parameters {
+pub(super) struct SlamParameters {
     pub(super) method: Method,
     pub(super) values: ParamValues,
     pub(super) diagnostics: Diagnostics,
     pub(super) sources: SourceMap,
 }
 
-impl Parameters {
-    /// Reads parameters in order of precedence: dedicated options, `-p`, the file. A message if
-    /// they cannot be read.
-    pub(super) fn read(options: &SlamOptions) -> Result<Self, String> {
+impl SlamParameters {
+    /// Reads parameters in order of precedence: dedicated options, `-p`, the file.
+    pub(super) fn read(request: &LogMappingRequest) -> Result<Self, LogMappingError> {
         let mut sources = SourceMap::new();
         let mut diagnostics = Diagnostics::new();
         let mut layers: Vec<Vec<Written>> = Vec::new();
         // Method of the node whose parameters the file has.
         let mut named = None;
-        if let Some(path) = &options.live.params_file {
-            let text = crate::paths::text(path).map_err(|error| error.to_string())?;
+        if let Some(path) = &request.params_file {
+            let text = files::text(path)?;
             let file = sources.add(path.display().to_string(), text);
             match periplus_yaml::parse(file, &sources) {
                 Ok(Some(tree)) => {
-                    let found = in_file(&tree, options.method, &mut diagnostics);
+                    let found = in_file(&tree, request.method, &mut diagnostics);
                     named = found.method;
                     layers.push(found.written);
                 }
@@ -44,19 +45,19 @@ impl Parameters {
             }
         }
         let mut typed = Vec::new();
-        for word in &options.parameters {
-            typed.push(on_command_line(word, &mut sources)?);
+        for word in &request.parameters {
+            typed.push(on_command_line(word, &mut sources).map_err(LogMappingError::Parameter)?);
         }
         // The last parameter of a name counts.
         typed.reverse();
         let of = |layer: &[Written]| {
             tables::method_of(&layer.iter().map(Written::given).collect::<Vec<_>>())
         };
-        let told = options.method.or_else(|| of(&typed)).or(named);
+        let told = request.method.or_else(|| of(&typed)).or(named);
         let method = told.or_else(|| layers.iter().find_map(|it| of(it))).unwrap_or_default();
         layers.push(typed);
         let table = method.table();
-        layers.push(own(options, method));
+        layers.push(own(request, method));
         let canonical = |name: &str| table.find(name).map(|it| it.name);
         let mut counts: Vec<Given<'_>> = Vec::new();
         for layer in layers.iter().rev() {
@@ -77,18 +78,19 @@ impl Parameters {
         Ok(Self { method, values, diagnostics, sources })
     }
 
-    /// Topics and frames of the log: options first, then parameters.
-    pub(super) fn input(&self, flags: &LogOptions) -> LogOptions {
-        let told = |name: &str| {
+    /// Topics and frames of the log: those of the request first, then parameters.
+    pub(super) fn input(&self, requested: &LogSelection) -> LogSelection {
+        let given = |name: &str| {
             self.values.table().find(name)?;
             self.values.text(name).filter(|_| self.values.is_given(name))
         };
-        let odom_frame = told("odom_frame").filter(|_| flags.odom_frame == "odom");
-        LogOptions {
-            odom_frame: odom_frame.unwrap_or_else(|| flags.odom_frame.clone()),
-            told_topic: told("scan_topic"),
-            told_base: told("base_frame"),
-            ..flags.clone()
+        let usual = LogSelection::default().odom_frame;
+        let odom_frame = given("odom_frame").filter(|_| requested.odom_frame == usual);
+        LogSelection {
+            odom_frame: odom_frame.unwrap_or_else(|| requested.odom_frame.clone()),
+            preferred_topic: given("scan_topic"),
+            preferred_base: given("base_frame"),
+            ..requested.clone()
         }
     }
 
@@ -102,7 +104,7 @@ impl Parameters {
 }
 
 /// Values of dedicated options, by the parameter names of the method.
-fn own(options: &SlamOptions, method: Method) -> Vec<Written> {
+fn own(request: &LogMappingRequest, method: Method) -> Vec<Written> {
     let mut all = Vec::new();
     let mut give = |graph: &str, gmapping: &str, text: Option<String>| {
         let name = match method {
@@ -114,11 +116,11 @@ fn own(options: &SlamOptions, method: Method) -> Vec<Written> {
             all.push(Written { name: name.to_owned(), text, name_origin, origin });
         }
     };
-    give("resolution", "delta", options.resolution.map(|it| it.to_string()));
-    give("max_laser_range", "maxUrange", options.max_range.map(|it| it.to_string()));
-    give("do_loop_closing", "", options.no_loops.then(|| "false".to_owned()));
-    give("", "random_seed", options.seed.map(|it| it.cast_signed().to_string()));
-    give("", "threads", options.threads.map(|it| it.to_string()));
+    give("resolution", "delta", request.resolution_m.map(|it| it.to_string()));
+    give("max_laser_range", "maxUrange", request.range_max_m.map(|it| it.to_string()));
+    give("do_loop_closing", "", request.is_without_loops.then(|| "false".to_owned()));
+    give("", "random_seed", request.seed.map(|it| it.cast_signed().to_string()));
+    give("", "threads", request.threads.map(|it| it.to_string()));
     all
 }
 

@@ -7,7 +7,8 @@ use periplus_resources::Host as _;
 use serde_json::{Value, json};
 
 /// CPU time of this thread \[s\], on Linux.
-pub(crate) fn cpu_s() -> Option<f64> {
+#[must_use]
+pub fn cpu_s() -> Option<f64> {
     let ns: f64 = words("/proc/thread-self/schedstat")?.split_whitespace().next()?.parse().ok()?;
     Some(ns * 1e-9)
 }
@@ -17,7 +18,8 @@ fn words(path: &str) -> Option<String> {
 }
 
 /// Step times in milliseconds: mean, 99th percentile, maximum.
-pub(crate) fn steps_ms(spent_s: &[f64]) -> Value {
+#[must_use]
+pub fn steps_ms(spent_s: &[f64]) -> Value {
     let mut sorted = spent_s.to_vec();
     sorted.sort_by(f64::total_cmp);
     let at = |part: f64| {

@@ -7,17 +7,17 @@ use periplus_slam::tables::GmappingParams;
 use periplus_slam::{ConstraintKind, Mapper, Method, MountingCorrection, Remark, RemarkKind};
 use serde_json::{Value, json};
 
-use super::options::SlamOptions;
-use super::parameters::Parameters;
-use crate::log::{Log, stamp};
+use super::parameters::SlamParameters;
+use super::request::LogMappingRequest;
+use crate::scan_log::{ScanLog, stamp};
 use crate::timing::{cpu_s, steps_ms};
 
 /// Report of a mapping run.
-pub(super) struct Report<'a> {
-    pub(super) options: &'a SlamOptions,
+pub struct MappingReport<'a> {
+    pub(super) request: &'a LogMappingRequest,
     pub(super) slam: &'a dyn Mapper,
-    pub(super) parameters: &'a Parameters,
-    pub(super) log: &'a Log,
+    pub(super) parameters: &'a SlamParameters,
+    pub(super) log: &'a ScanLog,
     /// Time to read the log.
     pub(super) loaded_s: f64,
     /// Time of the last optimization.
@@ -30,9 +30,10 @@ pub(super) struct Report<'a> {
     pub(super) remedy: Option<MountingCorrection>,
 }
 
-impl Report<'_> {
+impl MappingReport<'_> {
     /// JSON report. Called last, so that the peak memory includes the whole run.
-    pub(super) fn to_json(&self) -> Value {
+    #[must_use]
+    pub fn to_json(&self) -> Value {
         let counts = self.slam.counts();
         let closures: Vec<Value> = self
             .slam
@@ -50,7 +51,7 @@ impl Report<'_> {
             })
             .collect();
         json!({
-            "log": self.options.log,
+            "log": self.request.log,
             "method": self.slam.method().word(),
             "parameters": self.given(),
             "kind": self.log.kind,
@@ -117,7 +118,8 @@ impl Report<'_> {
     }
 
     /// Reason for which the map must not be used.
-    pub(super) fn failure(&self) -> Option<String> {
+    #[must_use]
+    pub fn failure(&self) -> Option<String> {
         let counts = self.slam.counts();
         let is_unfitting = |remark: &Remark| matches!(remark.kind, RemarkKind::UnmatchedScans(_));
         self.slam.remarks().iter().any(is_unfitting).then(|| {
@@ -130,7 +132,10 @@ impl Report<'_> {
     }
 
     /// Prints the report as text.
-    pub(super) fn tell(&self, out: &mut dyn Write, is_written: bool) -> io::Result<()> {
+    ///
+    /// # Errors
+    /// A failed write.
+    pub fn write_text(&self, out: &mut dyn Write, is_written: bool) -> io::Result<()> {
         let counts = self.slam.counts();
         for warning in self.warnings() {
             writeln!(out, "warning: {warning}")?;
@@ -160,7 +165,7 @@ impl Report<'_> {
             )?;
         }
         if is_written {
-            writeln!(out, "  map and trajectory: {}", self.options.out.display())?;
+            writeln!(out, "  map and trajectory: {}", self.request.out.display())?;
         }
         Ok(())
     }

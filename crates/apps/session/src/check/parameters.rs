@@ -5,9 +5,15 @@ use std::path::Path;
 use periplus_diagnostics::{Diagnostic, Diagnostics, SourceMap};
 use periplus_yaml::YamlNode;
 
-/// Findings on a file; a message if it cannot be read.
-pub(crate) fn examine(path: &Path) -> Result<Vec<(Diagnostics, SourceMap)>, String> {
-    let text = crate::paths::text(path).map_err(|error| error.to_string())?;
+use crate::files;
+use crate::nodes::read_costmap_text;
+
+/// Returns the findings of clocks and costmaps of a parameter file.
+///
+/// # Errors
+/// A message if the file cannot be read or has no parameters.
+pub fn examine_parameters(path: &Path) -> Result<Vec<(Diagnostics, SourceMap)>, String> {
+    let text = files::text(path).map_err(|error| error.to_string())?;
     let mut sources = SourceMap::new();
     let mut found = Diagnostics::new();
     let file = sources.add(path.display().to_string(), text.clone());
@@ -18,8 +24,10 @@ pub(crate) fn examine(path: &Path) -> Result<Vec<(Diagnostics, SourceMap)>, Stri
             let has_costmap = text.contains("costmap");
             all.push((found, sources));
             if has_costmap {
-                let costmaps = crate::costmap::doctor::findings(path, text);
-                all.push(costmaps.map_err(|error| error.to_string())?);
+                let mut costmaps = read_costmap_text(&path.display().to_string(), text, None)
+                    .map_err(|error| error.to_string())?;
+                costmaps.add_layer_findings();
+                all.push((costmaps.diagnostics, costmaps.sources));
             }
         }
         Ok(None) => return Err(format!("{} is empty", path.display())),

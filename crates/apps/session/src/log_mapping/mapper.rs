@@ -4,8 +4,10 @@ use std::path::Path;
 
 use periplus_slam::{Gmapping, GmappingSettings, Mapper, Method, Settings, Slam};
 
-use super::options::SlamOptions;
-use super::parameters::Parameters;
+use super::error::LogMappingError;
+use super::parameters::SlamParameters;
+use super::request::LogMappingRequest;
+use crate::files;
 
 /// Map, by method.
 pub(super) enum SelectedMapper {
@@ -15,19 +17,22 @@ pub(super) enum SelectedMapper {
 
 impl SelectedMapper {
     /// Initial map: an empty one, or that of the given session.
-    pub(super) fn new(options: &SlamOptions, parameters: &Parameters) -> Result<Self, String> {
+    pub(super) fn new(
+        request: &LogMappingRequest,
+        parameters: &SlamParameters,
+    ) -> Result<Self, LogMappingError> {
         let values = &parameters.values;
-        match (parameters.method, &options.session) {
+        match (parameters.method, &request.session) {
             (Method::Graph, None) => Ok(Self::Graph(Box::new(Slam::new(Settings::of(values))))),
             (Method::Graph, Some(path)) => {
                 Ok(Self::Graph(Box::new(read(path, Settings::of(values))?)))
             }
-            (Method::Gmapping, None) if options.save_session.is_none() && options.g2o.is_none() => {
+            (Method::Gmapping, None)
+                if request.session_out.is_none() && request.g2o_out.is_none() =>
+            {
                 Ok(Self::Gmapping(Box::new(Gmapping::new(GmappingSettings::of(values)))))
             }
-            (Method::Gmapping, _) => Err("gmapping has no graph: sessions and g2o (`--session`, \
-                                          `--save-session`, `--g2o`) need `--method graph`"
-                .into()),
+            (Method::Gmapping, _) => Err(LogMappingError::NoGraph),
         }
     }
 
@@ -54,8 +59,9 @@ impl SelectedMapper {
     }
 }
 
-fn read(path: &Path, settings: Settings) -> Result<Slam, String> {
-    let bytes = crate::paths::read(path).map_err(|error| error.to_string())?;
-    Slam::resume(&bytes, settings)
-        .map_err(|why| format!("cannot continue the session {}: {why}", path.display()))
+fn read(path: &Path, settings: Settings) -> Result<Slam, LogMappingError> {
+    let bytes = files::read(path)?;
+    Slam::resume(&bytes, settings).map_err(|why| {
+        LogMappingError::Session(format!("cannot continue the session {}: {why}", path.display()))
+    })
 }

@@ -1,0 +1,17 @@
+//! Results of a running session.
+
+use std::path::PathBuf;
+
+use crate::tab::Tab;
+
+impl Tab {
+    /// Writes map, session and costmaps of the nodes that were asked for them, and returns the folder of the map; none
+    /// where no node maps into a folder.
+    ///
+    /// # Errors
+    /// When there is no map yet, or a file cannot be written.
+    pub fn write_results(&self) -> Result<Option<PathBuf>, String> {
+        let mapping = self.session().estimators().mapping.as_ref();
+        mapping.map_or(Ok(None), |node| node.write_results().map_err(|error| error.to_string()))
+    }
+}
