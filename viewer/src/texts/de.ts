@@ -1325,4 +1325,38 @@ export const de: Texts = {
       `Die Pose von ${model} ist „${pose}“; nötig sind sechs Zahlen: x y z roll pitch yaw`,
     pasted: (models) => `${models} eingefügt`,
   },
+  tab: {
+    loading: 'Der Simulator wird geladen',
+    starting: 'Die Simulation startet',
+    ended: 'Die Simulation ist beendet',
+    refused: 'Dieser Link kann nicht geöffnet werden',
+    again: 'Neu starten',
+    demo: 'Demo starten',
+    noWorker: 'der Worker mit dem Simulator startet nicht; laden Sie die Seite neu',
+    notLoaded: 'der Simulator ist nicht geladen; starten Sie ihn zuerst',
+    unknownSetting: (name, known) =>
+      `Die Einstellung „${name}“ ist unbekannt. Ein Link kann haben: ${known}.`,
+    twice: (name) => `Die Einstellung „${name}“ kommt mehrmals vor.`,
+    empty: (name) => `Die Einstellung „${name}“ ist leer; sie nennt eine Datei.`,
+    badSeed: (text, max) =>
+      `Der Seed ist „${text}“; er muss eine ganze Zahl von 0 bis ${max} sein.`,
+    badFlag: (name, text) =>
+      `Die Einstellung „${name}“ ist „${text}“; sie muss true oder false sein.`,
+    onlyDemo: (name) =>
+      `Die Einstellung „${name}“ gehört zur Demo; sie geht nicht zusammen mit einer Welt oder einem Roboter.`,
+    files: 'Dateien',
+    filesHint:
+      'Dateien im Speicher dieses Tabs. Sie sind weg, wenn der Tab geschlossen wird: laden Sie herunter, was Sie behalten wollen.',
+    noFiles: 'Noch keine Dateien. Ziehen Sie Dateien auf die Seite.',
+    add: 'Dateien hinzufügen',
+    saveMap: 'Karte speichern',
+    noMap: (service) => `${service} hat keine Karte geschrieben`,
+    run: (path) => `${path} ausführen`,
+    download: (path) => `${path} herunterladen`,
+    remove: (path) => `${path} entfernen`,
+    taken: (name, panel) => `${name} ist im Panel ${panel}`,
+    tooLarge: (name, mebibytes) =>
+      `${name} ist größer als ${mebibytes} MiB, mehr nimmt ein Tab nicht; verwenden Sie das Programm`,
+    memory: (size) => `${size} Arbeitsspeicher`,
+  },
 };

@@ -6,6 +6,7 @@
 
 #[cfg(target_family = "wasm")]
 pub mod exports;
+pub mod files;
 mod options;
 mod tab;
 
