@@ -9,7 +9,7 @@ import { bytesText } from '../src/tab/files.svelte';
 
 describe('link', () => {
   test('without settings it is the demo', () => {
-    expect(readLink('')).toEqual({ options: { demo: { is_paced: true } } });
+    expect(readLink('')).toEqual({ options: { demo: { is_paced: true, navigation: true } } });
   });
 
   test('seed and exploration belong to the demo', () => {

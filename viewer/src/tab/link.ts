@@ -15,7 +15,8 @@ type Name = (typeof NAMES)[number];
 /** Largest seed: numbers of JSON are exact up to it. */
 const MAX_SEED = Number.MAX_SAFE_INTEGER;
 
-export const DEMO: SessionOptions = { demo: { is_paced: true } };
+/** The robot drives to goals of the user. */
+export const DEMO: SessionOptions = { demo: { is_paced: true, navigation: true } };
 
 function seedOf(text: string): number {
   const seed = Number(text);
@@ -43,8 +44,9 @@ function optionsOf(query: URLSearchParams): SessionOptions {
   }
   const seeded = seed === null ? {} : { seed: seedOf(seed) };
   if (world === null && robots.length === 0) {
-    const explores = explore === null ? {} : { explore: flagOf('explore', explore) };
-    return { demo: { is_paced: true, ...seeded, ...explores } };
+    const explores = explore !== null && flagOf('explore', explore);
+    const driver = explores ? { explore: true } : { navigation: true };
+    return { demo: { is_paced: true, ...driver, ...seeded } };
   }
   if (explore !== null) throw new Error(t().tab.onlyDemo('explore'));
   const run = { ...(world !== null && { world }), robots: robots.map((file) => ({ file })) };

@@ -37,6 +37,8 @@ pub enum TabError {
     Options(serde_json::Error),
     /// The session cannot start.
     Run(RunError),
+    /// Exploration and navigation would both drive the robot.
+    TwoDrivers,
     /// The client cannot join.
     NoClient,
     /// A body diverged.
@@ -52,6 +54,9 @@ impl fmt::Display for TabError {
         match self {
             Self::Options(error) => write!(f, "the options are not valid: {error}"),
             Self::Run(error) => error.fmt(f),
+            Self::TwoDrivers => f.write_str(
+                "`explore` and `navigation` would both drive the robot; choose one of them",
+            ),
             Self::NoClient => f.write_str("the page cannot join its session"),
             Self::Diverged(error) => error.fmt(f),
             Self::Recording(error) => write!(f, "the bag is incomplete: {error}"),
@@ -104,7 +109,14 @@ impl Tab {
             ..demo::recording(&out.join("demo.mcap"))
         });
         let search = Search { working_folder: Path::new("/").to_owned(), ..Search::default() };
-        let mut session = demo::builder(simulation, out, Stopwatch::start())
+        if options.explore && options.navigation {
+            return Err(TabError::TwoDrivers);
+        }
+        let mut builder = demo::builder(simulation, out, Stopwatch::start());
+        if options.navigation {
+            builder = builder.estimators(demo::navigation(out));
+        }
+        let mut session = builder
             .factor(options.is_paced.then_some(1.0))
             .search(search)
             .recording(recording)

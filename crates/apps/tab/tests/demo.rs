@@ -87,3 +87,18 @@ fn an_unpaced_world_steps_for_its_budget() {
     let mut tab = Tab::open_json(b"{}").unwrap();
     assert_eq!(tab.run_paced(Duration::from_millis(1)).unwrap(), Duration::ZERO);
 }
+
+#[test]
+fn one_program_drives_the_robot() {
+    let options = br#"{"demo": {"explore": true, "navigation": true}}"#;
+    let error = Tab::open_json(options).unwrap_err().to_string();
+    assert!(error.contains("choose one of them"), "{error}");
+}
+
+#[test]
+fn goals_can_be_sent_where_navigation_runs() {
+    let mut tab = Tab::open_json(br#"{"demo": {"navigation": true}}"#).unwrap();
+    tab.step_until(100_000_000).unwrap();
+    let texts = drain(&tab).0;
+    assert!(service(&texts, "/navigate_to_pose/_action/send_goal").is_some(), "{texts:?}");
+}
