@@ -261,16 +261,8 @@ async function refusesLinks(chrome, url) {
 async function takesSettings(chrome, url) {
   const { page } = await open(chrome, `${url}?seed=3&explore`, FREE);
   await running(page);
-  await until(
-    page,
-    'periplus.topics.some(({ name }) => name === "/explorer/path" || name === "/explorer/plan")',
-    'an explorer',
-  ).catch(async () => {
-    const publishers = await page.evaluate(() =>
-      window.periplus.topics.flatMap((one) => one.publishers),
-    );
-    assert.ok(publishers.includes('/explorer'), `nodes: ${[...new Set(publishers)]}`);
-  });
+  const explores = 'periplus.topics.some((one) => one.publishers.includes("/explorer"))';
+  await until(page, explores, 'the node that explores');
   await page.close();
 }
 
@@ -304,7 +296,7 @@ async function lacksWebAssembly() {
   const site = await serveFolder(PAGE);
   const old = await chromium.launch({
     executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
-    args: ['--no-sandbox', '--js-flags=--noexpose-wasm'],
+    args: ['--no-sandbox', '--js-flags=--jitless'],
   });
   try {
     const { page } = await open(old, site.url, FREE);

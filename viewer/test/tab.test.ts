@@ -33,7 +33,7 @@ describe('link', () => {
     ['?world=room.world&explore', /belongs to the demo/],
   ])('%s is refused', (search, why) => {
     const link = readLink(search);
-    expect('refusal' in link && link.refusal).toMatch(why);
+    expect('refusal' in link && link.refusal()).toMatch(why);
   });
 });
 

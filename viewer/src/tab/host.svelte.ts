@@ -12,8 +12,10 @@ export type Phase =
   | { kind: 'starting' }
   | { kind: 'running' }
   | { kind: 'ended'; why: string }
+  /** The module cannot be received or compiled. */
+  | { kind: 'unloaded'; why: string }
   /** The link has settings that cannot be used. */
-  | { kind: 'refused'; why: string };
+  | { kind: 'refused'; why: () => string };
 
 interface Pending {
   resolve(result: MemoryFile[] | Uint8Array<ArrayBuffer> | undefined): void;
@@ -121,7 +123,7 @@ export class Host {
 
   /** The module is lost, with the files in its memory; the next session loads it again. */
   private failed(why: string): void {
-    this.phase = { kind: 'ended', why };
+    this.phase = { kind: this.isLoaded ? 'ended' : 'unloaded', why };
     this.worker?.terminate();
     this.worker = undefined;
     for (const pending of this.requests.values()) pending.reject(new Error(why));

@@ -13,6 +13,8 @@ export function show(makeWorker: () => WorkerPort, moduleBytes: number): void {
   const link = readLink(location.search);
   const host = new Host(makeWorker, moduleBytes, link);
   const app = new App(() => host.open());
+  app.isWithoutServer = true;
+  if ('refusal' in link) app.connection = 'closed';
   const files = new Files(app, host);
   app.receiver = files;
   offerPanel({

@@ -1329,6 +1329,7 @@ export const de: Texts = {
     loading: 'Der Simulator wird geladen',
     starting: 'Die Simulation startet',
     ended: 'Die Simulation ist beendet',
+    unloaded: 'Der Simulator kann nicht geladen werden',
     refused: 'Dieser Link kann nicht geöffnet werden',
     again: 'Neu starten',
     demo: 'Demo starten',

@@ -1340,6 +1340,7 @@ export const en = {
     loading: 'Loading the simulator',
     starting: 'Starting the simulation',
     ended: 'The simulation has ended',
+    unloaded: 'The simulator cannot be loaded',
     refused: 'This link cannot be opened',
     again: 'Start again',
     demo: 'Start the demo',
