@@ -12,7 +12,8 @@ import { open, PROGRAM, ROOT, until } from './lib.mjs';
 import { goal, ready } from './navigate.mjs';
 import { serveFolder } from './static.mjs';
 
-export const PAGE = join(ROOT, 'target/tab/page');
+/** The static page; `PERIPLUS_TAB_PAGE` names another build of it. */
+export const PAGE = process.env.PERIPLUS_TAB_PAGE ?? join(ROOT, 'target/tab/page');
 const CORE = join(ROOT, 'crates/apps/tab/scripts/core.mjs');
 
 /** Targets of the time to the first picture and from there to the first scan [s]; machines of tests may be slow. */
