@@ -186,6 +186,67 @@ async function keepsFiles(page, out) {
   await panel.getByText('/files/note.txt').waitFor({ state: 'detached' });
 }
 
+/** A file with an error is checked, and a log is mapped, as by `periplus check` and `periplus slam`. */
+async function checksAndMaps(page, out) {
+  const has = await page.evaluate(() =>
+    window.periplusTab.call('messages').then(
+      () => true,
+      (error) => !error.message.includes('built without'),
+    ),
+  );
+  if (!has) {
+    console.log('SKIPPED: tab checks and maps: the module was built without these functions');
+    return;
+  }
+  await page.evaluate(() => window.periplus.workbench.open('tabFiles'));
+  const panel = page.getByRole('tabpanel').filter({ has: page.getByTestId('tab-file') });
+  const wrong = join(out, 'wrong.urdf');
+  writeFileSync(wrong, '<robot name="wrong"><link name="a"/><link name="b"/></robot>');
+  await page.getByTestId('tab-file').setInputFiles(wrong);
+  await panel.getByRole('button', { name: 'Check /files/wrong.urdf' }).click();
+  await panel
+    .getByRole('group', { name: 'Findings in /files/wrong.urdf' })
+    .getByText('b')
+    .waitFor();
+  const log = join(out, 'short.log');
+  writeFileSync(log, carmenLog(60));
+  await page.getByTestId('tab-file').setInputFiles(log);
+  await panel.getByRole('button', { name: 'Map /files/short.log' }).click();
+  const card = panel.getByRole('group', { name: 'Map of /files/short.log' });
+  await card.getByRole('img').waitFor({ timeout: 60_000 });
+  await card.getByRole('progressbar').waitFor({ state: 'detached', timeout: 60_000 });
+  await panel.getByText(/^\/results\/short\/.*\.pgm$/).waitFor();
+}
+
+/** A robot that drives along the middle of a corridor with walls 1 m beside it. */
+function carmenLog(scans) {
+  const lines = [];
+  for (let i = 0; i < scans; i++) {
+    const x = (i * 0.1).toFixed(3);
+    const ranges = Array.from({ length: 180 }, (_, beam) => {
+      const rad = ((beam - 89.5) * Math.PI) / 180;
+      return Math.min(1 / Math.abs(Math.sin(rad)), 8).toFixed(3);
+    });
+    lines.push(`FLASER 180 ${ranges.join(' ')} ${x} 0 0 ${x} 0 0 ${i * 0.2} host ${i * 0.2}`);
+  }
+  return `${lines.join('\n')}\n`;
+}
+
+/** A ready session of the page, from a link. */
+async function opensSessions(chrome, url) {
+  if (!existsSync(join(PAGE, 'files/sessions.json'))) {
+    console.log('SKIPPED: tab opens sessions: the page was built without ready sessions');
+    return;
+  }
+  const { sessions } = JSON.parse(readFileSync(join(PAGE, 'files/sessions.json'), 'utf8'));
+  for (const { name } of sessions) {
+    const { page } = await open(chrome, `${url}?session=${name}`, FREE);
+    await running(page);
+    await until(page, 'periplus.topics.length > 3 && periplus.timeS > 0', `the session ${name}`);
+    await page.close();
+  }
+}
+
 const BAG_WORKER = `
 import { Core } from './core.mjs';
 onmessage = async ({ data: { module, seconds, seed } }) => {
@@ -328,6 +389,7 @@ export async function tab(chrome, serverUrl, out, attempt) {
       'reaches a goal': () => reachesGoal(page),
       records: () => records(page, out),
       'keeps files': () => keepsFiles(page, out),
+      'checks and maps': () => checksAndMaps(page, out),
       'is quiet': async () => assert.deepEqual(complaints, []),
     };
     for (const [name, step] of Object.entries(steps)) await attempt(`tab ${name}`, step);
@@ -337,6 +399,7 @@ export async function tab(chrome, serverUrl, out, attempt) {
     );
     await attempt('tab refuses links', () => refusesLinks(chrome, site.url));
     await attempt('tab takes settings', () => takesSettings(chrome, site.url));
+    await attempt('tab opens sessions', () => opensSessions(chrome, site.url));
     await attempt('tab fails with words', () => fails(chrome));
     await attempt('tab lacks WebAssembly', () => lacksWebAssembly());
   } finally {

@@ -2,25 +2,34 @@ import { describe, expect, test, vi } from 'vitest';
 import { Client } from '../src/core/client';
 import { Host, type WorkerPort } from '../src/tab/host.svelte';
 import { readLink } from '../src/tab/link';
+import { MapJob, type Caller } from '../src/tab/map_job.svelte';
+import { Sessions } from '../src/tab/sessions';
 import type { FromWorker, ToWorker } from '../src/tab/messages';
 import { PortSocket } from '../src/tab/port_socket';
 import { MAX_IN_FLIGHT_BYTES, SessionLoop, type Runner } from '../src/tab/session_loop';
 import { bytesText } from '../src/tab/files.svelte';
 
 describe('link', () => {
-  test('without settings it is the demo', () => {
-    expect(readLink('')).toEqual({ options: { demo: { is_paced: true, navigation: true } } });
+  test('without settings it is the demo, whose robot drives to goals', () => {
+    const options = { demo: { is_paced: true, navigation: true } };
+    expect(readLink('')).toEqual({ kind: 'options', options });
   });
 
   test('seed and exploration belong to the demo', () => {
-    const options = { demo: { is_paced: true, seed: 3, explore: true } };
-    expect(readLink('?seed=3&explore')).toEqual({ options });
+    const options = { demo: { is_paced: true, explore: true, seed: 3 } };
+    expect(readLink('?seed=3&explore')).toEqual({ kind: 'options', options });
   });
 
-  test('world and robots are a run', () => {
+  test('world and robots are a run with their files', () => {
     const robots = [{ file: 'a.urdf' }, { file: 'b.xacro' }];
     const options = { run: { is_paced: true, world: 'room.world', robots, seed: 1 } };
-    expect(readLink('?world=room.world&robot=a.urdf&robot=b.xacro&seed=1')).toEqual({ options });
+    const paths = ['room.world', 'a.urdf', 'b.xacro'];
+    const link = readLink('?world=room.world&robot=a.urdf&robot=b.xacro&seed=1');
+    expect(link).toEqual({ kind: 'files', options, paths });
+  });
+
+  test('a session has a name', () => {
+    expect(readLink('?session=kbot&seed=2')).toEqual({ kind: 'session', name: 'kbot', seed: 2 });
   });
 
   test.each([
@@ -31,9 +40,76 @@ describe('link', () => {
     ['?explore=maybe', /true or false/],
     ['?world=', /is empty/],
     ['?world=room.world&explore', /belongs to the demo/],
+    ['?session=kbot&world=room.world', /cannot be combined/],
   ])('%s is refused', (search, why) => {
     const link = readLink(search);
-    expect('refusal' in link && link.refusal()).toMatch(why);
+    expect(link.kind === 'refused' && link.why()).toMatch(why);
+  });
+});
+
+describe('ready sessions', () => {
+  const list = [
+    { name: 'a', title: { en: 'A' }, files: ['w/room.sdf', 'r/bot.urdf'], options: {} },
+    { name: 'b', title: { en: 'B' }, files: ['w/hall.sdf', 'r/bot.urdf'], options: {} },
+  ];
+  const served = (status: number) =>
+    vi.fn(() => Promise.resolve(new Response(JSON.stringify({ sessions: list }), { status })));
+
+  test('a file comes with those of all sessions that have it', async () => {
+    vi.stubGlobal('fetch', served(200));
+    const sessions = await Sessions.load(new URL('http://x/'));
+    expect(sessions.around(['w/hall.sdf'])).toEqual(['w/hall.sdf', 'r/bot.urdf']);
+    expect(sessions.around(['r/bot.urdf'])).toEqual(['w/room.sdf', 'r/bot.urdf', 'w/hall.sdf']);
+    expect(() => sessions.around(['w/none.sdf'])).toThrow('does not have the file w/none.sdf');
+    expect(() => sessions.named('c')).toThrow('This page has: a, b');
+    vi.unstubAllGlobals();
+  });
+
+  test('a page without sessions has none; another failure is reported', async () => {
+    vi.stubGlobal('fetch', served(404));
+    expect((await Sessions.load(new URL('http://x/'))).list).toEqual([]);
+    vi.stubGlobal('fetch', served(503));
+    await expect(Sessions.load(new URL('http://x/'))).rejects.toThrow('503');
+    vi.unstubAllGlobals();
+  });
+});
+
+describe('mapping of a log', () => {
+  /** Answers of the module by the names of its functions. */
+  const caller = (answers: Record<string, (() => unknown) | undefined>) => {
+    const calls: string[] = [];
+    const call = async (name: string) => {
+      calls.push(name);
+      return answers[name]?.() ?? {};
+    };
+    const callBytes = async () => new Uint8Array([1]);
+    return { calls, host: { call, callBytes } as unknown as Caller };
+  };
+
+  test('it steps until the map is complete, and frees it', async () => {
+    let steps = 0;
+    const { calls, host } = caller({
+      map_step: () => ({ phase: ++steps === 3 ? 'complete' : 'mapping', fraction: steps / 3 }),
+      map_write: () => ({ text: '3 scans', failure: null }),
+    });
+    const job = new MapJob(host, '/a.log', '/results/a');
+    await job.run();
+    expect(calls).toEqual([
+      'map_open',
+      'map_step',
+      'map_step',
+      'map_step',
+      'map_write',
+      'map_close',
+    ]);
+    expect([job.text, job.fraction, job.isRunning]).toEqual(['3 scans', 1, false]);
+  });
+
+  test('it can be cancelled between two steps', async () => {
+    const found = caller({ map_step: () => (job.cancel(), { phase: 'mapping', fraction: 0.1 }) });
+    const job = new MapJob(found.host, '/a.log', '/results/a');
+    await job.run();
+    expect(found.calls).toEqual(['map_open', 'map_step', 'map_close']);
   });
 });
 
@@ -162,7 +238,7 @@ function hostOf() {
     workers.push(worker);
     return worker;
   };
-  return { host: new Host(make, 100, { options: { demo: {} } }), workers };
+  return { host: new Host(make, 100), workers };
 }
 
 const nothing = () => undefined;

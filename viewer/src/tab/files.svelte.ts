@@ -4,7 +4,10 @@ import { download } from '../app/download';
 import type { Dropped, FileReceiver } from '../app/drop';
 import { t } from '../texts/language.svelte';
 import type { Host } from './host.svelte';
+import type { Launcher } from './launcher';
+import { MapJob } from './map_job.svelte';
 import type { MemoryFile } from './messages';
+import type { ReadySession } from './sessions';
 
 /** Folder of dropped files. */
 const DROPPED = '/files';
@@ -15,14 +18,36 @@ const MAX_FILE_BYTES = 1 << 30;
 
 const SAVE_MAP = /^slam_toolbox\/(srv\/)?SaveMap$/;
 const WORLD = /\.(world|sdf)$/i;
+const CHECKED = /\.(world|sdf|urdf|xacro|launch|ya?ml)$/i;
+const LOG = /\.(log|clf|gfs|bag|mcap|db3)$/i;
+const ARCHIVE = /\.(zip|tar|tar\.gz|tgz)$/i;
 
 export class Files implements FileReceiver {
   list: readonly MemoryFile[] = $state.raw([]);
+  /** Ready sessions of this page. */
+  sessions: readonly ReadySession[] = $state.raw([]);
+  /** Findings of the file that was checked last. */
+  checked: { path: string; text: string } | undefined = $state.raw();
+  /** Mapping of a log. */
+  job: MapJob | undefined = $state.raw();
 
   constructor(
     private app: App,
     readonly host: Host,
+    private launcher: Launcher,
   ) {}
+
+  async loadSessions(): Promise<void> {
+    await this.attempt(async () => {
+      this.sessions = (await this.launcher.sessions()).list;
+    });
+  }
+
+  /** Starts a ready session, which is then in the address. */
+  async launch(name: string): Promise<void> {
+    history.replaceState(history.state, '', `?session=${encodeURIComponent(name)}`);
+    await this.launcher.launch({ kind: 'session', name });
+  }
 
   async refresh(): Promise<void> {
     if (this.host.phase.kind !== 'running') return;
@@ -33,33 +58,59 @@ export class Files implements FileReceiver {
     }
   }
 
-  /** Writes dropped files into memory. */
+  /** Writes dropped files into memory; archives are unpacked. */
   async take({ name, files }: Dropped): Promise<void> {
     for (const file of files) {
       if (file.size > MAX_FILE_BYTES) {
         throw new Error(t().tab.tooLarge(file.name, MAX_FILE_BYTES / 2 ** 20));
       }
       const content = new Uint8Array(await file.slice(0, file.size).arrayBuffer());
-      await this.host.write(`${DROPPED}/${file.name}`, content);
+      const path = `${DROPPED}/${file.name}`;
+      await this.host.write(path, content);
+      if (ARCHIVE.test(file.name)) await this.unpack(path);
     }
     await this.refresh();
     this.app.notice('info', t().tab.taken(name, t().tab.files));
     this.app.workbench?.open('tabFiles');
   }
 
-  isWorld(file: MemoryFile): boolean {
-    return WORLD.test(file.path);
+  private async unpack(path: string): Promise<void> {
+    const { left_out } = await this.host.call<{ left_out: string[] }>('unpack', {
+      archive: path,
+      folder: DROPPED,
+    });
+    await this.host.remove(path);
+    if (left_out.length > 0) this.app.notice('warn', t().tab.leftOut(left_out.join('; ')));
   }
+
+  isWorld = (file: MemoryFile): boolean => WORLD.test(file.path);
+  isChecked = (file: MemoryFile): boolean => CHECKED.test(file.path);
+  isLog = (file: MemoryFile): boolean => LOG.test(file.path);
 
   /** Starts a session with a world from memory. */
-  run(file: MemoryFile): void {
-    this.restart({ run: { is_paced: true, world: file.path, robots: [] } });
+  async run(file: MemoryFile): Promise<void> {
+    const options = { run: { is_paced: true, world: file.path, robots: [] } };
+    await this.launcher.launch({ kind: 'options', options });
   }
 
-  private restart(options: Record<string, unknown>): void {
-    this.app.client.stop();
-    this.host.use(options);
-    this.app.client.start();
+  /** Shows the findings of `periplus check`. */
+  async check({ path }: MemoryFile): Promise<void> {
+    await this.attempt(async () => {
+      const { text } = await this.host.call<{ text: string }>('check', { files: [path] });
+      this.checked = { path, text };
+    });
+  }
+
+  /** Maps a log, as `periplus slam`; the results are in a folder of its name. */
+  async map({ path }: MemoryFile): Promise<void> {
+    if (this.job?.isRunning) return;
+    const name = path
+      .split('/')
+      .pop()!
+      .replace(/\.\w+$/, '');
+    this.job = new MapJob(this.host, path, `${RESULTS}/${name}`);
+    await this.attempt(() => this.job!.run());
+    await this.refresh();
   }
 
   async save(file: MemoryFile): Promise<void> {

@@ -1,8 +1,7 @@
 /** The worker with the simulator, as the page sees it: its loading, its end, its files. */
 import type { Socket } from '../core/client';
 import { t } from '../texts/language.svelte';
-import { DEMO, type Link } from './link';
-import type { FileRequest, FromWorker, MemoryFile, SessionOptions, ToWorker } from './messages';
+import type { Request, FromWorker, MemoryFile, SessionOptions, ToWorker } from './messages';
 import { PortSocket } from './port_socket';
 
 export type Phase =
@@ -36,7 +35,7 @@ export class Host {
   phase: Phase = $state.raw({ kind: 'loading', receivedBytes: 0 });
   /** Memory of the module [bytes]. */
   memoryBytes = $state(0);
-  private options: SessionOptions = DEMO;
+  private options: SessionOptions = {};
   private worker?: WorkerPort;
   private socket?: PortSocket;
   private isLoaded = false;
@@ -49,11 +48,8 @@ export class Host {
     private makeWorker: () => WorkerPort,
     /** Size of the module [bytes]. */
     readonly moduleBytes: number,
-    link: Link,
   ) {
     this.load();
-    if ('options' in link) this.options = link.options;
-    else this.phase = { kind: 'refused', why: link.refusal };
   }
 
   /** Options of the next session. */
@@ -61,9 +57,19 @@ export class Host {
     this.options = options;
   }
 
+  /** The link cannot be opened; the reason in the present language. */
+  refuse(why: () => string): void {
+    this.phase = { kind: 'refused', why };
+  }
+
+  /** Loads the module again after it was lost. */
+  renew(): void {
+    if (!this.worker) this.load();
+  }
+
   /** Starts a session with the present options; for the client. */
   open(): Socket {
-    if (!this.worker) this.load();
+    this.renew();
     this.phase = this.isLoaded ? { kind: 'starting' } : { kind: 'loading', receivedBytes: 0 };
     const post = (message: ToWorker, transfer: Transferable[] = []) => this.post(message, transfer);
     this.socket = new PortSocket(++this.sessions, this.options, post);
@@ -130,6 +136,15 @@ export class Host {
     this.requests.clear();
   }
 
+  /** Executes a function of the module whose answer is JSON. */
+  async call<Answer>(name: string, args: object = {}): Promise<Answer> {
+    return JSON.parse(new TextDecoder().decode(await this.callBytes(name, args))) as Answer;
+  }
+
+  async callBytes(name: string, args: object = {}): Promise<Uint8Array<ArrayBuffer>> {
+    return (await this.ask({ op: 'call', name, args })) as Uint8Array<ArrayBuffer>;
+  }
+
   // Files in the memory of the module.
 
   async list(folder: string): Promise<MemoryFile[]> {
@@ -148,7 +163,7 @@ export class Host {
     await this.ask({ op: 'remove', path });
   }
 
-  private ask(request: FileRequest, transfer: Transferable[] = []) {
+  private ask(request: Request, transfer: Transferable[] = []) {
     return new Promise<MemoryFile[] | Uint8Array<ArrayBuffer> | undefined>((resolve, reject) => {
       if (!this.worker) {
         reject(new Error(t().tab.notLoaded));
@@ -156,7 +171,7 @@ export class Host {
       }
       const id = ++this.lastId;
       this.requests.set(id, { resolve, reject });
-      this.post({ kind: 'files', id, request }, transfer);
+      this.post({ kind: 'request', id, request }, transfer);
     });
   }
 

@@ -1,12 +1,20 @@
 /**
- * Settings in the address of a page without a server: `?seed=3&explore`, `?world=PATH&robot=PATH`. Unknown names and
- * wrong values are refused, so that a link never shows something else than it says.
+ * Settings in the address of a page without a server: `?seed=3&explore`, `?session=NAME`, `?world=PATH&robot=PATH`.
+ * Unknown names and wrong values are refused, so that a link never shows something else than it says.
  */
 import { t } from '../texts/language.svelte';
 import type { SessionOptions } from './messages';
 
+/** What is started. */
+export type Launch =
+  | { kind: 'options'; options: SessionOptions }
+  /** A ready session of the page. */
+  | { kind: 'session'; name: string; seed?: number }
+  /** A world and robots from files that the page has beside it. */
+  | { kind: 'files'; options: SessionOptions; paths: string[] };
+
 /** A link, or the reason why it cannot be used, in the present language. */
-export type Link = { options: SessionOptions } | { refusal: () => string };
+export type Link = Launch | { kind: 'refused'; why: () => string };
 
 class Refusal extends Error {
   constructor(readonly words: () => string) {
@@ -15,14 +23,17 @@ class Refusal extends Error {
 }
 
 /** Settings that a link may have; `robot` may be repeated. */
-export const NAMES = ['world', 'robot', 'seed', 'explore'] as const;
+export const NAMES = ['session', 'world', 'robot', 'seed', 'explore'] as const;
 type Name = (typeof NAMES)[number];
 
 /** Largest seed: numbers of JSON are exact up to it. */
 const MAX_SEED = Number.MAX_SAFE_INTEGER;
 
 /** The robot drives to goals of the user. */
-export const DEMO: SessionOptions = { demo: { is_paced: true, navigation: true } };
+export const DEMO: Launch = {
+  kind: 'options',
+  options: { demo: { is_paced: true, navigation: true } },
+};
 
 function seedOf(text: string): number {
   const seed = Number(text);
@@ -37,36 +48,53 @@ function flagOf(name: Name, text: string): boolean {
   throw new Refusal(() => t().tab.badFlag(name, text));
 }
 
-function optionsOf(query: URLSearchParams): SessionOptions {
+function launchOf(query: URLSearchParams): Launch {
   for (const name of query.keys()) {
     if (!(NAMES as readonly string[]).includes(name)) {
       throw new Refusal(() => t().tab.unknownSetting(name, NAMES.join(', ')));
     }
-    if (name !== 'robot' && query.getAll(name).length > 1)
+    if (name !== 'robot' && query.getAll(name).length > 1) {
       throw new Refusal(() => t().tab.twice(name));
+    }
   }
-  const [world, seed, explore] = [query.get('world'), query.get('seed'), query.get('explore')];
-  const robots = query.getAll('robot');
   for (const [name, text] of query) {
-    if ((name === 'world' || name === 'robot') && !text)
+    if (['session', 'world', 'robot'].includes(name) && !text) {
       throw new Refusal(() => t().tab.empty(name));
+    }
   }
-  const seeded = seed === null ? {} : { seed: seedOf(seed) };
-  if (world === null && robots.length === 0) {
-    const explores = explore !== null && flagOf('explore', explore);
-    const driver = explores ? { explore: true } : { navigation: true };
-    return { demo: { is_paced: true, ...driver, ...seeded } };
+  const [session, world, seed, explore] = (['session', 'world', 'seed', 'explore'] as const).map(
+    (name) => query.get(name),
+  );
+  const robots = query.getAll('robot');
+  const seeded = seed == null ? {} : { seed: seedOf(seed) };
+  const hasFiles = world != null || robots.length > 0;
+  if (explore != null && (hasFiles || session != null)) {
+    throw new Refusal(() => t().tab.onlyDemo('explore'));
   }
-  if (explore !== null) throw new Refusal(() => t().tab.onlyDemo('explore'));
-  const run = { ...(world !== null && { world }), robots: robots.map((file) => ({ file })) };
-  return { run: { is_paced: true, ...run, ...seeded } };
+  if (session != null) {
+    if (hasFiles) throw new Refusal(() => t().tab.onlyOne('session', 'world, robot'));
+    return { kind: 'session', name: session, ...seeded };
+  }
+  if (hasFiles) {
+    const run = {
+      is_paced: true,
+      ...(world != null && { world }),
+      robots: robots.map((file) => ({ file })),
+      ...seeded,
+    };
+    const paths = world == null ? robots : [world, ...robots];
+    return { kind: 'files', options: { run }, paths };
+  }
+  const explores = explore != null && flagOf('explore', explore);
+  const driver = explores ? { explore: true } : { navigation: true };
+  return { kind: 'options', options: { demo: { is_paced: true, ...driver, ...seeded } } };
 }
 
 export function readLink(search: string): Link {
   try {
-    return { options: optionsOf(new URLSearchParams(search)) };
+    return launchOf(new URLSearchParams(search));
   } catch (error) {
     if (!(error instanceof Refusal)) throw error;
-    return { refusal: error.words };
+    return { kind: 'refused', why: error.words };
   }
 }

@@ -6,8 +6,9 @@ export type { MemoryFile, SessionOptions };
 /** Message of the session's client, as on a WebSocket. */
 export type Data = string | Uint8Array<ArrayBuffer>;
 
-/** Work on the files in the memory of the module. */
-export type FileRequest =
+/** Work on the files in the memory of the module, and its functions. */
+export type Request =
+  | { op: 'call'; name: string; args: object }
   | { op: 'list'; folder: string }
   | { op: 'read'; path: string }
   | { op: 'write'; path: string; content: Uint8Array<ArrayBuffer> }
@@ -21,7 +22,7 @@ export type ToWorker =
   | { kind: 'data'; session: number; data: Data }
   /** The page has processed this many bytes. */
   | { kind: 'received'; session: number; bytes: number }
-  | { kind: 'files'; id: number; request: FileRequest };
+  | { kind: 'request'; id: number; request: Request };
 
 /** From the worker. */
 export type FromWorker =

@@ -6,16 +6,16 @@ import { start } from '../start';
 import { t } from '../texts/language.svelte';
 import { Files } from './files.svelte';
 import { Host, type WorkerPort } from './host.svelte';
+import { Launcher } from './launcher';
 import { readLink } from './link';
 import TabStatus from './TabStatus.svelte';
 
 export function show(makeWorker: () => WorkerPort, moduleBytes: number): void {
-  const link = readLink(location.search);
-  const host = new Host(makeWorker, moduleBytes, link);
+  const host = new Host(makeWorker, moduleBytes);
   const app = new App(() => host.open());
   app.isWithoutServer = true;
-  if ('refusal' in link) app.connection = 'closed';
-  const files = new Files(app, host);
+  const launcher = new Launcher(app, host, new URL('.', location.href));
+  const files = new Files(app, host, launcher);
   app.receiver = files;
   offerPanel({
     id: 'tabFiles',
@@ -27,8 +27,9 @@ export function show(makeWorker: () => WorkerPort, moduleBytes: number): void {
       return { default: FilesPanel };
     },
   });
-  start(app, 'options' in link);
-  mount(TabStatus, { target: document.body, props: { app, host } });
+  start(app, false);
+  mount(TabStatus, { target: document.body, props: { host, launcher } });
   // Entry points for end-to-end tests.
   Object.assign(window, { periplusTab: host, periplusFiles: files });
+  void launcher.launch(readLink(location.search));
 }

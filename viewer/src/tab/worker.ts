@@ -1,6 +1,6 @@
 /** Worker with the simulator: loads the module, and runs one session at a time. */
 import type { Core } from '../../../crates/apps/tab/scripts/core.mjs';
-import type { FileRequest, FromWorker, SessionOptions, ToWorker } from './messages';
+import type { Request, FromWorker, SessionOptions, ToWorker } from './messages';
 import { loadModule } from './module';
 import { SessionLoop } from './session_loop';
 
@@ -42,8 +42,10 @@ async function open(session: number, options: SessionOptions): Promise<void> {
   loop.start();
 }
 
-function files(module: Core, request: FileRequest) {
+function answer(module: Core, request: Request) {
   switch (request.op) {
+    case 'call':
+      return module.callBytes(request.name, request.args);
     case 'list':
       return module.listFiles(request.folder);
     case 'read':
@@ -57,9 +59,9 @@ function files(module: Core, request: FileRequest) {
   }
 }
 
-async function work(id: number, request: FileRequest): Promise<void> {
+async function work(id: number, request: Request): Promise<void> {
   try {
-    const result = files(await core!, request);
+    const result = answer(await core!, request);
     post({ kind: 'answer', id, result }, result instanceof Uint8Array ? [result.buffer] : []);
   } catch (error) {
     post({ kind: 'refusal', id, why: (error as Error).message });
@@ -92,7 +94,7 @@ scope.onmessage = ({ data: message }) => {
     case 'received':
       if (loop?.session === message.session) loop.received(message.bytes);
       break;
-    case 'files':
+    case 'request':
       void work(message.id, message.request);
       break;
   }

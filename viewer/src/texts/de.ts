@@ -1358,6 +1358,22 @@ export const de: Texts = {
     taken: (name, panel) => `${name} ist im Panel ${panel}`,
     tooLarge: (name, mebibytes) =>
       `${name} ist größer als ${mebibytes} MiB, mehr nimmt ein Tab nicht; verwenden Sie das Programm`,
+    sessions: 'Sitzung',
+    choose: 'Auswählen',
+    noSession: (name, known) =>
+      `Die Sitzung „${name}“ ist unbekannt. Diese Seite hat: ${known || 'keine'}.`,
+    notServed: (path) =>
+      `Diese Seite hat die Datei ${path} nicht. Ziehen Sie eigene Dateien auf die Seite und führen Sie sie im Panel Dateien aus.`,
+    noFile: (path, status) =>
+      `${path} kann nicht geladen werden: Der Server der Seite antwortet ${status}.`,
+    onlyOne: (name, others) => `Die Einstellung „${name}“ geht nicht zusammen mit ${others}.`,
+    leftOut: (list) => `Ausgelassen: ${list}`,
+    check: (path) => `${path} prüfen`,
+    findings: (path) => `Befunde in ${path}`,
+    map: (path) => `${path} kartieren`,
+    mapping: (path) => `Karte von ${path}`,
+    mapOf: (path) => `Belegungsgitter von ${path} mit der Trajektorie`,
+    cancel: 'Abbrechen',
     memory: (size) => `${size} Arbeitsspeicher`,
   },
 };

@@ -1369,6 +1369,23 @@ export const en = {
     taken: (name: string, panel: string) => `${name} is in the panel ${panel}`,
     tooLarge: (name: string, mebibytes: number) =>
       `${name} is larger than ${mebibytes} MiB, the most that a tab takes; use the program instead`,
+    sessions: 'Session',
+    choose: 'Choose',
+    noSession: (name: string, known: string) =>
+      `The session "${name}" is unknown. This page has: ${known || 'none'}.`,
+    notServed: (path: string) =>
+      `This page does not have the file ${path}. Drop your own files on the page and run them from the panel Files.`,
+    noFile: (path: string, status: number) =>
+      `${path} cannot be loaded: the host of the page answers ${status}.`,
+    onlyOne: (name: string, others: string) =>
+      `The setting "${name}" cannot be combined with ${others}.`,
+    leftOut: (list: string) => `Left out: ${list}`,
+    check: (path: string) => `Check ${path}`,
+    findings: (path: string) => `Findings in ${path}`,
+    map: (path: string) => `Map ${path}`,
+    mapping: (path: string) => `Map of ${path}`,
+    mapOf: (path: string) => `Occupancy grid of ${path} with the trajectory`,
+    cancel: 'Cancel',
     memory: (size: string) => `${size} of memory`,
   },
 };

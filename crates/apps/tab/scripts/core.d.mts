@@ -40,4 +40,8 @@ export class Core {
   removeFile(path: string): void;
   /** Files below a folder, with their paths and sizes. */
   listFiles(folder: string): MemoryFile[];
+  /** Executes a function with arguments in JSON, such as `check`, and returns its answer. */
+  call(name: string, args?: object): unknown;
+  /** As `call`, for an answer of bytes, such as `map_preview`. */
+  callBytes(name: string, args?: object): Uint8Array<ArrayBuffer>;
 }

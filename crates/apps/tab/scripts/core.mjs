@@ -41,6 +41,7 @@ export class Core {
   }
 
   #call(name, ...args) {
+    if (!this.#exports[name]) throw new Error(`this module was built without ${name}`);
     let code;
     try {
       code = this.#exports[name](...args);
@@ -129,5 +130,15 @@ export class Core {
   /** Files below a folder, with their paths and sizes. */
   listFiles(folder) {
     return JSON.parse(new TextDecoder().decode(this.#call("periplus_list_files", ...this.#text(folder))));
+  }
+
+  /** Executes a function with arguments in JSON, such as `check`, and returns its answer. */
+  call(name, args = {}) {
+    return JSON.parse(new TextDecoder().decode(this.callBytes(name, args)));
+  }
+
+  /** As `call`, for an answer of bytes, such as `map_preview`. */
+  callBytes(name, args = {}) {
+    return this.#call("periplus_call", ...this.#text(JSON.stringify({ [name]: args })));
   }
 }
