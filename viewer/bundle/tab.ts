@@ -16,8 +16,8 @@ const SESSIONS = join(ROOT, 'crates/apps/tab/sessions/sessions.json');
 
 /** Files of the ready sessions by their paths in the page. */
 function* sessionFiles(): Generator<[string, Buffer]> {
-  if (!existsSync(SESSIONS)) return;
-  const list = readFileSync(SESSIONS);
+  const none = Buffer.from('{"sessions": []}\n');
+  const list = existsSync(SESSIONS) ? readFileSync(SESSIONS) : none;
   yield ['files/sessions.json', list];
   const { sessions } = JSON.parse(list.toString()) as { sessions: { files: string[] }[] };
   for (const path of new Set(sessions.flatMap(({ files }) => files))) {

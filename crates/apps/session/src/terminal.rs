@@ -77,6 +77,10 @@ pub fn print_findings(findings: &Diagnostics) -> io::Result<()> {
 /// Working folder of the user.
 #[must_use]
 pub fn working_folder() -> PathBuf {
+    if cfg!(target_family = "wasm") {
+        // Files in memory have absolute paths.
+        return PathBuf::from("/");
+    }
     std::env::current_dir().unwrap_or_default()
 }
 
