@@ -77,7 +77,7 @@ export class App {
   active: Viewport = $state.raw(undefined as never);
   /** The open panels; set by the page. */
   workbench: Workbench | undefined = $state.raw();
-  /** True if the simulator is in this tab: the page starts it, and says why it has ended. */
+  /** True if the simulator is in this tab: the page starts it, and shows why it has ended. */
   isWithoutServer = false;
   /** Takes dropped files that the page itself does not open; without a server the simulator in the tab does. */
   receiver: FileReceiver | undefined;

@@ -1,6 +1,6 @@
 /**
  * Settings in the address of a page without a server: `?seed=3&explore`, `?session=NAME`, `?world=PATH&robot=PATH`.
- * Unknown names and wrong values are refused, so that a link never shows something else than it says.
+ * Unknown names and wrong values are refused, so that a link never starts anything else.
  */
 import { t } from '../texts/language.svelte';
 import type { SessionOptions } from './messages';
