@@ -1,4 +1,5 @@
 //! File of a recording, for a client that keeps it.
+#![expect(clippy::disallowed_methods, reason = "transports are an edge: this file is on the disk")]
 
 use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
