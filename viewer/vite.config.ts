@@ -1,20 +1,30 @@
 import { svelte } from '@sveltejs/vite-plugin-svelte';
 import { defineConfig } from 'vitest/config';
 import { fileURLToPath } from 'node:url';
+import { moduleFile, tabPage } from './bundle/tab.ts';
 import { fileNames } from './bundle/chunks.ts';
 import { threeSubset } from './bundle/three.ts';
 
-const MAIN = fileURLToPath(new URL('src/main.ts', import.meta.url));
+const path = (name: string) => fileURLToPath(new URL(name, import.meta.url));
 
-// The page is built into the crate that serves it, so that a build of the program needs no Node.
-export default defineConfig(({ command }) => ({
-  plugins: [svelte(), ...(command === 'build' ? [threeSubset()] : [])],
+// The page is built into the crate that serves it, so that a build of the program needs no Node. With `--mode tab` it
+// is built without a server, with the simulator in a worker.
+export default defineConfig(({ command, mode }) => ({
+  plugins: [
+    svelte(),
+    ...(command === 'build' ? [threeSubset()] : []),
+    ...(mode === 'tab' ? [tabPage()] : []),
+  ],
   base: './',
   resolve: {
-    alias: command === 'build' ? [{ find: /^three$/, replacement: 'three/src/Three.js' }] : [],
+    alias: [
+      ...(command === 'build' ? [{ find: /^three$/, replacement: 'three/src/Three.js' }] : []),
+      { find: /^periplus-module/, replacement: moduleFile },
+    ],
   },
+  worker: { format: 'es' },
   build: {
-    outDir: '../crates/transports/web/page',
+    outDir: mode === 'tab' ? '../target/tab/page' : '../crates/transports/web/page',
     emptyOutDir: true,
     target: 'es2022',
     chunkSizeWarningLimit: 900,
@@ -25,7 +35,12 @@ export default defineConfig(({ command }) => ({
     rolldownOptions: {
       output: {
         codeSplitting: {
-          groups: [{ name: fileNames(MAIN), includeDependenciesRecursively: false }],
+          groups: [
+            {
+              name: fileNames(path(mode === 'tab' ? 'src/tab/main.ts' : 'src/main.ts')),
+              includeDependenciesRecursively: false,
+            },
+          ],
         },
       },
     },

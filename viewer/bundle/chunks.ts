@@ -12,7 +12,7 @@ interface ModuleInfo {
   dynamicallyImportedIds: readonly string[];
 }
 
-const isPanel = (id: string) => /\/src\/panels\/\w+Panel\.svelte$/.test(id);
+const isPanel = (id: string) => /\/src\/(panels|tab)\/\w+Panel\.svelte$/.test(id);
 
 /** Modules that are loaded with these, themselves included. */
 function loadedWith(roots: Iterable<string>, graph: Graph): Set<string> {

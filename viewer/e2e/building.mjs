@@ -44,8 +44,9 @@ const lengths = (page) =>
     'building.plan.walls.map((w) => +Math.hypot(w.to.x - w.from.x, w.to.y - w.from.y).toFixed(3))',
   );
 
-export async function building(chrome, url, out) {
-  const { page } = await open(chrome, `${url}#building`);
+/** `liveUrl`: the page that shows the simulation of the room, with a server. */
+export async function building(chrome, url, out, liveUrl = url) {
+  const { page } = await open(chrome, `${url}#building`, { bypassCSP: true });
   const press = await presser(page);
   for (const [x, y] of [
     [0, 0],
@@ -87,7 +88,7 @@ export async function building(chrome, url, out) {
   await page.close();
   const run = await periplus(sim(world, KBOT, '--pose', '2,2,0', `--page=127.0.0.1:${PORT}`), PORT);
   try {
-    const { page: live } = await open(chrome, `${url}?ws=ws://127.0.0.1:${PORT}/`);
+    const { page: live } = await open(chrome, `${liveUrl}?ws=ws://127.0.0.1:${PORT}/`);
     await until(live, 'periplus.tf.has("odom")', 'odometry');
     const found = await next(
       live,

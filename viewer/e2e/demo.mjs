@@ -27,7 +27,7 @@ const pose = `(() => {
 })()`;
 const known = (page) => next(page, '/map', 'message.data.reduce((n, c) => n + (c >= 0), 0)');
 
-const STEPS = {
+export const STEPS = {
   async opens(page) {
     await until(page, 'periplus.connection === "open"', 'a connection', 60_000);
     const has = (expression) => `periplus.displays.some((d) => d.isEnabled && ${expression})`;

@@ -18,6 +18,7 @@ import { panels } from './panels.mjs';
 import { proof } from './proof.mjs';
 import { replay } from './replay.mjs';
 import { robots } from './robots.mjs';
+import { tab } from './tab.mjs';
 import { tutorials } from './tutorials.mjs';
 import { use } from './use.mjs';
 
@@ -192,6 +193,7 @@ try {
   await proof(chrome, pages.url, out, attempt);
   await demo(chrome, pages.url, attempt);
   await robots(chrome, pages.url, attempt);
+  await tab(chrome, pages.url, out, attempt);
 } finally {
   await chrome.close();
   pages.stop();

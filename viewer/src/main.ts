@@ -1,7 +1,7 @@
-import { mount } from 'svelte';
-import App from './panels/App.svelte';
-import { App as State } from './app/app.svelte';
-import { language } from './texts/language.svelte';
+import { App } from './app/app.svelte';
+import type { Socket } from './core/client';
+import { SUBPROTOCOL } from './core/protocol';
+import { start } from './start';
 
 /**
  * Token of a server. It arrives once in the address and is then kept in this tab's session storage: an address
@@ -37,13 +37,5 @@ function address(): string {
     : base;
 }
 
-const state = new State(address());
-mount(App, { target: document.getElementById('app')!, props: { app: state } });
-// Entry point for end-to-end tests and screenshots.
-(window as unknown as { periplus: State }).periplus = state;
-state.client.start();
-// Needed when a file is dragged over the page.
-void import('./panels/DropTarget.svelte').then(({ default: DropTarget }) =>
-  mount(DropTarget, { target: document.body, props: { app: state } }),
-);
-void language.start();
+const url = address();
+start(new App(() => new WebSocket(url, [SUBPROTOCOL]) as unknown as Socket));

@@ -147,6 +147,9 @@ enum Task {
         /// Only check that the crates compile
         #[arg(long)]
         check: bool,
+        /// Only build the page without a server into `target/tab/page`
+        #[arg(long, conflicts_with = "check")]
+        page: bool,
         /// Simulated seconds of the comparison
         #[arg(long, default_value_t = 60)]
         seconds: u32,
@@ -345,6 +348,7 @@ fn perform(task: &Task) -> Result<(), Failed> {
         Task::Codegen { check } => codegen::run(*check),
         Task::Drive => drive::corpus(),
         Task::Wasm { check: true, .. } => wasm::check(),
+        Task::Wasm { page: true, .. } => wasm::page(),
         Task::Wasm { seconds, .. } => wasm::all(*seconds),
         Task::Sweeps { only } => sweeps::prove(only.as_deref()),
         Task::Scenarios { repeat, only } => scenarios::suite(*repeat, only.as_deref()),

@@ -15,6 +15,13 @@ pub(crate) fn build() -> Result<(), Failed> {
     npm(&["run", "build"], "the page does not build")
 }
 
+/// Builds the page without a server into `target/tab/page`.
+pub(crate) fn build_tab() -> Result<(), Failed> {
+    install()?;
+    npm(&["run", "--silent", "build:tab"], "the page does not build")?;
+    npm(&["run", "--silent", "pack:tab"], "see above")
+}
+
 /// Checks and tests the page, and that the committed one is what its sources give.
 pub(crate) fn check() -> Result<(), Failed> {
     install()?;

@@ -3,7 +3,7 @@ import { Client, type Handler, type Socket, type State } from '../core/client';
 import type { Message } from '../core/cdr';
 import { Feed } from '../core/feed';
 import { multiply, type Pose } from '../core/pose';
-import { SUBPROTOCOL, type Mismatch, type Parameter } from '../core/protocol';
+import type { Mismatch, Parameter } from '../core/protocol';
 import { longName } from '../core/schema';
 import { KEPT_S, TfBuffer } from '../core/tf';
 import { seconds, stampOf, type TransformStamped } from '../core/types';
@@ -13,6 +13,7 @@ import type { ViewState } from '../scene/view';
 import { MeshLibrary } from '../scene/meshes';
 import { SensorFrames, WORLD } from '../sim/sensor_frames';
 import { Clock } from './clock';
+import type { FileReceiver } from './drop';
 import type { Entry } from './entry.svelte';
 import { estimatorsOf } from './estimators';
 import { TEXTS } from './texts';
@@ -76,6 +77,10 @@ export class App {
   active: Viewport = $state.raw(undefined as never);
   /** The open panels; set by the page. */
   workbench: Workbench | undefined = $state.raw();
+  /** True if the simulator is in this tab: the page starts it, and shows why it has ended. */
+  isWithoutServer = false;
+  /** Takes dropped files that the page itself does not open; without a server the simulator in the tab does. */
+  receiver: FileReceiver | undefined;
   models: string[] = $state([]);
   /** Selected models of the simulated world, in the order of their selection. */
   selection: string[] = $state.raw([]);
@@ -109,9 +114,9 @@ export class App {
   private isGraphChanged = false;
   private flushedMs = 0;
 
-  constructor(url: string) {
+  constructor(open: () => Socket) {
     this.client = new Client(
-      () => new WebSocket(url, [SUBPROTOCOL]) as unknown as Socket,
+      open,
       {
         state: (state, why) => this.connected(state, why),
         graphChanged: () => (this.isGraphChanged = true),

@@ -15,6 +15,11 @@ export interface Dropped {
   isFolder: boolean;
 }
 
+/** Takes dropped files. */
+export interface FileReceiver {
+  take(dropped: Dropped): Promise<void>;
+}
+
 export type FileKind = 'recording' | 'rviz' | 'world' | 'unknown';
 
 /** Files of a folder: more are no recording. */
@@ -72,7 +77,8 @@ async function openOne(app: App, { name, files, isFolder }: Dropped): Promise<vo
   if (isFolder) {
     const parts = files.filter((file, i) => kinds[i] === 'recording' || isMetadata(file));
     if (!kinds.includes('recording')) {
-      app.notice('error', texts.emptyFolder(name));
+      if (app.receiver) await app.receiver.take({ name, files, isFolder });
+      else app.notice('error', texts.emptyFolder(name));
       return;
     }
     await upload(app, name, parts);
@@ -83,6 +89,7 @@ async function openOne(app: App, { name, files, isFolder }: Dropped): Promise<vo
   const [kind] = kinds;
   if (kind === 'rviz') await app.workbench?.openFile?.(name, await file.text());
   else if (kind === 'recording' || isNamedRecording(name)) await upload(app, name, [file]);
+  else if (app.receiver) await app.receiver.take({ name, files, isFolder });
   else if (kind === 'world') app.notice('warn', texts.worldFile(name));
   else app.notice('error', texts.notARecording(name));
 }

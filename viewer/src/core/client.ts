@@ -25,10 +25,12 @@ export interface Socket {
   binaryType: string;
   readonly readyState: number;
   readonly bufferedAmount: number;
+  /** False for a connection that the user opens again; others are opened again by the client. */
+  readonly reopens?: boolean;
   send(data: string | Uint8Array<ArrayBuffer>): void;
   close(): void;
   onopen: ((event: never) => void) | null;
-  onclose: ((event: never) => void) | null;
+  onclose: ((event: { reason: string }) => void) | null;
   onerror: ((event: never) => void) | null;
   onmessage: ((event: { data: unknown }) => void) | null;
 }
@@ -145,8 +147,10 @@ export class Client {
     };
     socket.onmessage = (event) => this.receive(event.data);
     socket.onerror = () => undefined;
-    socket.onclose = () => {
-      if (this.socket === socket) this.lost(t().connection.unreachable);
+    socket.onclose = ({ reason }) => {
+      if (this.socket !== socket) return;
+      if (socket.reopens === false) this.ended(reason);
+      else this.lost(t().connection.unreachable);
     };
   }
 
@@ -160,10 +164,14 @@ export class Client {
     this.setState('closed', '');
   }
 
-  private lost(why: string): void {
+  private ended(why: string): void {
     this.socket = undefined;
     this.forget(why);
     this.setState('closed', why);
+  }
+
+  private lost(why: string): void {
+    this.ended(why);
     if (this.isStopped) return;
     this.retry = setTimeout(() => this.start(), this.retryMs);
     this.retryMs = Math.min(this.retryMs * 2, LONGEST_RETRY_MS);

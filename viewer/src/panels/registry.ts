@@ -102,5 +102,8 @@ const kinds: PanelKind[] = [
 
 export const PANEL_KINDS: readonly PanelKind[] = kinds;
 
+/** Adds a kind of a page with more than this one; call it before the page is shown. */
+export const offerPanel = (kind: PanelKind): void => void kinds.push(kind);
+
 export const panelKind = (id: string): PanelKind | undefined =>
   PANEL_KINDS.find((kind) => kind.id === id);

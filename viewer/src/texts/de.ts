@@ -1325,4 +1325,55 @@ export const de: Texts = {
       `Die Pose von ${model} ist „${pose}“; nötig sind sechs Zahlen: x y z roll pitch yaw`,
     pasted: (models) => `${models} eingefügt`,
   },
+  tab: {
+    loading: 'Der Simulator wird geladen',
+    starting: 'Die Simulation startet',
+    ended: 'Die Simulation ist beendet',
+    unloaded: 'Der Simulator kann nicht geladen werden',
+    refused: 'Dieser Link kann nicht geöffnet werden',
+    again: 'Neu starten',
+    demo: 'Demo starten',
+    noWorker: 'der Worker mit dem Simulator startet nicht; laden Sie die Seite neu',
+    notLoaded: 'der Simulator ist nicht geladen; starten Sie ihn zuerst',
+    unknownSetting: (name, known) =>
+      `Die Einstellung „${name}“ ist unbekannt. Ein Link kann haben: ${known}.`,
+    twice: (name) => `Die Einstellung „${name}“ kommt mehrmals vor.`,
+    empty: (name) => `Die Einstellung „${name}“ ist leer; sie nennt eine Datei.`,
+    badSeed: (text, max) =>
+      `Der Seed ist „${text}“; er muss eine ganze Zahl von 0 bis ${max} sein.`,
+    badFlag: (name, text) =>
+      `Die Einstellung „${name}“ ist „${text}“; sie muss true oder false sein.`,
+    onlyDemo: (name) =>
+      `Die Einstellung „${name}“ gehört zur Demo; sie geht nicht zusammen mit einer Welt oder einem Roboter.`,
+    files: 'Dateien',
+    filesHint:
+      'Dateien im Speicher dieses Tabs. Sie sind weg, wenn der Tab geschlossen wird: laden Sie herunter, was Sie behalten wollen.',
+    noFiles: 'Noch keine Dateien. Ziehen Sie Dateien auf die Seite.',
+    add: 'Dateien hinzufügen',
+    saveMap: 'Karte speichern',
+    noMap: (service) => `${service} hat keine Karte geschrieben`,
+    run: (path) => `${path} ausführen`,
+    download: (path) => `${path} herunterladen`,
+    remove: (path) => `${path} entfernen`,
+    taken: (name, panel) => `${name} ist im Panel ${panel}`,
+    tooLarge: (name, mebibytes) =>
+      `${name} ist größer als ${mebibytes} MiB, mehr nimmt ein Tab nicht; verwenden Sie das Programm`,
+    sessions: 'Sitzung',
+    choose: 'Auswählen',
+    noSession: (name, known) =>
+      `Die Sitzung „${name}“ ist unbekannt. Diese Seite hat: ${known || 'keine'}.`,
+    notServed: (path) =>
+      `Diese Seite hat die Datei ${path} nicht. Ziehen Sie eigene Dateien auf die Seite und führen Sie sie im Panel Dateien aus.`,
+    noFile: (path, status) =>
+      `${path} kann nicht geladen werden: Der Server der Seite antwortet ${status}.`,
+    onlyOne: (name, others) => `Die Einstellung „${name}“ geht nicht zusammen mit ${others}.`,
+    leftOut: (list) => `Ausgelassen: ${list}`,
+    check: (path) => `${path} prüfen`,
+    findings: (path) => `Befunde in ${path}`,
+    map: (path) => `${path} kartieren`,
+    mapping: (path) => `Karte von ${path}`,
+    mapOf: (path) => `Belegungsgitter von ${path} mit der Trajektorie`,
+    cancel: 'Abbrechen',
+    memory: (size) => `${size} Arbeitsspeicher`,
+  },
 };

@@ -1335,6 +1335,59 @@ export const en = {
       `The pose of ${model} is "${pose}"; six numbers are needed: x y z roll pitch yaw`,
     pasted: (models: string) => `${models} pasted`,
   },
+  /** The page without a server. */
+  tab: {
+    loading: 'Loading the simulator',
+    starting: 'Starting the simulation',
+    ended: 'The simulation has ended',
+    unloaded: 'The simulator cannot be loaded',
+    refused: 'This link cannot be opened',
+    again: 'Start again',
+    demo: 'Start the demo',
+    noWorker: 'the worker with the simulator cannot be started; reload the page',
+    notLoaded: 'the simulator is not loaded; start it first',
+    unknownSetting: (name: string, known: string) =>
+      `The setting "${name}" is unknown. A link may have: ${known}.`,
+    twice: (name: string) => `The setting "${name}" is there more than once.`,
+    empty: (name: string) => `The setting "${name}" is empty; it names a file.`,
+    badSeed: (text: string, max: number) =>
+      `The seed is "${text}"; it must be a whole number from 0 to ${max}.`,
+    badFlag: (name: string, text: string) =>
+      `The setting "${name}" is "${text}"; it must be true or false.`,
+    onlyDemo: (name: string) =>
+      `The setting "${name}" belongs to the demo; it cannot be combined with a world or a robot.`,
+    files: 'Files',
+    filesHint:
+      'Files in the memory of this tab. They are gone when the tab is closed: download what you want to keep.',
+    noFiles: 'No files yet. Drop files on the page.',
+    add: 'Add files',
+    saveMap: 'Save the map',
+    noMap: (service: string) => `${service} has written no map`,
+    run: (path: string) => `Run ${path}`,
+    download: (path: string) => `Download ${path}`,
+    remove: (path: string) => `Remove ${path}`,
+    taken: (name: string, panel: string) => `${name} is in the panel ${panel}`,
+    tooLarge: (name: string, mebibytes: number) =>
+      `${name} is larger than ${mebibytes} MiB, the most that a tab takes; use the program instead`,
+    sessions: 'Session',
+    choose: 'Choose',
+    noSession: (name: string, known: string) =>
+      `The session "${name}" is unknown. This page has: ${known || 'none'}.`,
+    notServed: (path: string) =>
+      `This page does not have the file ${path}. Drop your own files on the page and run them from the panel Files.`,
+    noFile: (path: string, status: number) =>
+      `${path} cannot be loaded: the host of the page answers ${status}.`,
+    onlyOne: (name: string, others: string) =>
+      `The setting "${name}" cannot be combined with ${others}.`,
+    leftOut: (list: string) => `Left out: ${list}`,
+    check: (path: string) => `Check ${path}`,
+    findings: (path: string) => `Findings in ${path}`,
+    map: (path: string) => `Map ${path}`,
+    mapping: (path: string) => `Map of ${path}`,
+    mapOf: (path: string) => `Occupancy grid of ${path} with the trajectory`,
+    cancel: 'Cancel',
+    memory: (size: string) => `${size} of memory`,
+  },
 };
 
 export type Texts = typeof en;

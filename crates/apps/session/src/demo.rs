@@ -14,6 +14,7 @@ use crate::builder::{RecordingRequest, SessionBuilder};
 use crate::files::FileError;
 use crate::nodes::{
     CostmapRequest, CostmapSource, EstimatorRequest, MappingRequest, MappingSource,
+    NavigationRequest,
 };
 use crate::session::SessionTask;
 
@@ -25,20 +26,32 @@ pub use stage::{WORLD_NAME, composition};
 /// Session of the demo, at full speed, whose results are written to a folder at its end.
 #[must_use]
 pub fn builder(options: Options, out: Option<&Path>, start: Stopwatch) -> SessionBuilder {
-    let (program, values) = stage::mapping();
     let estimators = EstimatorRequest {
         costmaps: Some(CostmapRequest {
             source: CostmapSource::Text("costmaps.yaml", stage::COSTMAPS.to_owned()),
             cells: Vec::new(),
             images: out.map(Path::to_owned),
         }),
-        mapping: Some(MappingRequest {
-            source: MappingSource::Values(program, values),
-            out: out.map(Path::to_owned),
-        }),
+        mapping: Some(mapping(out)),
         ..EstimatorRequest::default()
     };
     SessionBuilder::new(stage::composition(), options, start).quiet(true).estimators(estimators)
+}
+
+/// Estimators of a demo whose robot drives to goals of the user. The servers of navigation have both costmaps.
+#[must_use]
+pub fn navigation(out: Option<&Path>) -> EstimatorRequest {
+    EstimatorRequest {
+        detects_robot: true,
+        mapping: Some(mapping(out)),
+        navigation: Some(NavigationRequest::default()),
+        ..EstimatorRequest::default()
+    }
+}
+
+fn mapping(out: Option<&Path>) -> MappingRequest {
+    let (program, values) = stage::mapping();
+    MappingRequest { source: MappingSource::Values(program, values), out: out.map(Path::to_owned) }
 }
 
 /// Recording of everything but images, which only a viewer subscribes to.

@@ -30,6 +30,18 @@ impl SimulationSession {
         parts.simulation.step_until(next_ns)
     }
 
+    /// Returns a real-time factor that a client requested since the last call; an inner `None` is full speed.
+    #[must_use]
+    pub fn take_factor(&mut self) -> Option<Option<f64>> {
+        self.parts.services.take_factor()
+    }
+
+    /// Real-time factor of the builder; `None` is full speed.
+    #[must_use]
+    pub fn factor(&self) -> Option<f64> {
+        self.parts.factor
+    }
+
     /// Serves requests of clients to inspect and change the world.
     pub fn serve(&mut self) {
         let parts = &mut self.parts;

@@ -1,12 +1,13 @@
-// The WebAssembly module as a class, for node and for the worker of the page.
+// The WebAssembly module as a class, for node and for the worker of the page. Types are in core.d.mts.
 
 /** A session in WebAssembly. Errors of the simulator are thrown with its words. */
 export class Core {
   #exports;
   #panic = "";
+  #isBroken = false;
 
-  /** Compiles and starts the module from its bytes. */
-  static async start(bytes) {
+  /** Compiles and starts the module from its bytes, or from a response that is compiled while it is received. */
+  static async start(source) {
     const core = new Core();
     const imports = {
       periplus: {
@@ -16,7 +17,10 @@ export class Core {
         },
       },
     };
-    const { instance } = await WebAssembly.instantiate(bytes, imports);
+    const { instance } =
+      typeof Response === "function" && source instanceof Response
+        ? await WebAssembly.instantiateStreaming(source, imports)
+        : await WebAssembly.instantiate(source, imports);
     core.#exports = instance.exports;
     return core;
   }
@@ -37,10 +41,12 @@ export class Core {
   }
 
   #call(name, ...args) {
+    if (!this.#exports[name]) throw new Error(`this module was built without ${name}`);
     let code;
     try {
       code = this.#exports[name](...args);
     } catch (error) {
+      this.#isBroken = true;
       throw new Error(this.#panic || `${name}: ${error.message}`, { cause: error });
     }
     if (code !== 0) throw new Error(new TextDecoder().decode(this.#answer()));
@@ -60,8 +66,22 @@ export class Core {
     this.#call("periplus_step_until", endNs);
   }
 
+  /**
+   * Steps at the real-time factor of the world for at most this much wall time [ms]; returns the time until the next
+   * step is due [ms].
+   */
+  runPaced(budgetMs) {
+    const answer = this.#call("periplus_run_paced", budgetMs);
+    return new DataView(answer.buffer).getFloat64(0, true);
+  }
+
   get timeNs() {
     return this.#exports.periplus_time_ns();
+  }
+
+  /** True after a panic: the module must not be used any more. */
+  get isBroken() {
+    return this.#isBroken;
   }
 
   /** Bytes of the memory of the module. */
@@ -86,6 +106,11 @@ export class Core {
     return text;
   }
 
+  /** Ends the session. */
+  close() {
+    this.#exports.periplus_close();
+  }
+
   closeRecording() {
     this.#call("periplus_close_recording");
   }
@@ -96,6 +121,15 @@ export class Core {
 
   writeFile(path, content) {
     this.#call("periplus_write_file", ...this.#text(path), ...this.#pass(content));
+  }
+
+  removeFile(path) {
+    this.#call("periplus_remove_file", ...this.#text(path));
+  }
+
+  /** Files below a folder, with their paths and sizes. */
+  listFiles(folder) {
+    return JSON.parse(new TextDecoder().decode(this.#call("periplus_list_files", ...this.#text(folder))));
   }
 
   /** Executes a function with arguments in JSON, such as `check`, and returns its answer. */

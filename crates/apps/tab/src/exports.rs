@@ -14,6 +14,7 @@ use std::time::Duration;
 use periplus_os::fs;
 
 use crate::calls::{Calls, with_messages};
+use crate::files;
 use crate::tab::{Tab, TabFrame};
 
 #[link(wasm_import_module = "periplus")]
@@ -194,5 +195,32 @@ pub extern "C" fn periplus_call(call: *mut u8, length: usize) -> u32 {
     let call = passed(call, length);
     answer(
         TAB.with_borrow_mut(|tab| CALLS.with_borrow_mut(|calls| calls.answer(&call, tab.as_mut()))),
+    )
+}
+
+/// Steps at the real-time factor of the world for at most this much wall time \[ms\]; the answer is the time until the
+/// next step is due \[ms\], as eight bytes, little endian.
+#[unsafe(no_mangle)]
+pub extern "C" fn periplus_run_paced(budget_ms: f64) -> u32 {
+    with_tab(|tab| {
+        let budget = Duration::from_secs_f64(budget_ms.clamp(0.0, 1000.0) * 1e-3);
+        let wait = tab.run_paced(budget).map_err(|error| error.to_string())?;
+        Ok((wait.as_secs_f64() * 1e3).to_le_bytes().to_vec())
+    })
+}
+
+/// Lists the files in memory below a folder as the answer: a JSON list of objects with `path` and `bytes`.
+#[unsafe(no_mangle)]
+pub extern "C" fn periplus_list_files(folder: *mut u8, length: usize) -> u32 {
+    let folder = String::from_utf8_lossy(&passed(folder, length)).into_owned();
+    answer(files::list(Path::new(&folder)).map_err(|error| format!("`{folder}`: {error}")))
+}
+
+/// Removes a file in memory.
+#[unsafe(no_mangle)]
+pub extern "C" fn periplus_remove_file(path: *mut u8, length: usize) -> u32 {
+    let path = String::from_utf8_lossy(&passed(path, length)).into_owned();
+    answer(
+        fs::remove_file(&path).map(|()| Vec::new()).map_err(|error| format!("`{path}`: {error}")),
     )
 }

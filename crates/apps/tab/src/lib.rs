@@ -7,6 +7,7 @@
 pub mod calls;
 #[cfg(target_family = "wasm")]
 pub mod exports;
+pub mod files;
 pub mod log_mapping;
 mod opened;
 pub mod options;

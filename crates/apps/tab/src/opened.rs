@@ -32,6 +32,11 @@ impl OpenedSession {
 }
 
 fn demo(options: &DemoOptions) -> Result<OpenedSession, TabError> {
+    if options.explore && options.navigation {
+        return Err(TabError::Refused(
+            "`explore` and `navigation` would both drive the robot; choose one of them".to_owned(),
+        ));
+    }
     let simulation = Options { seed: options.seed, ..Options::default() };
     let out = options.out.as_deref();
     if let Some(out) = out {
@@ -42,7 +47,11 @@ fn demo(options: &DemoOptions) -> Result<OpenedSession, TabError> {
         ..demo::recording(&out.join("demo.mcap"))
     });
     let search = Search { working_folder: PathBuf::from("/"), ..Search::default() };
-    let session = demo::builder(simulation, out, Stopwatch::start())
+    let mut builder = demo::builder(simulation, out, Stopwatch::start());
+    if options.navigation {
+        builder = builder.estimators(demo::navigation(out));
+    }
+    let session = builder
         .factor(options.is_paced.then_some(1.0))
         .search(search)
         .recording(recording)

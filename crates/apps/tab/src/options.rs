@@ -49,6 +49,8 @@ pub struct DemoOptions {
     pub seed: u64,
     /// True to explore autonomously.
     pub explore: bool,
+    /// True to run the servers of navigation, which drive to goals of the user; not together with `explore`.
+    pub navigation: bool,
     /// True without the page and its topics.
     pub headless: bool,
     /// True if the caller steps in real time: maps are then computed in slices, without pauses.

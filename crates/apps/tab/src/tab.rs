@@ -1,14 +1,22 @@
 //! A session with one client.
 
 use std::fmt;
+use std::time::Duration;
 
+use periplus_os::Stopwatch;
 use periplus_session::demo::DemoTask;
 use periplus_session::{PageHub, RunError, SimulationSession};
-use periplus_sim::{Diverged, RecordError, RecordingSummary};
+use periplus_sim::{Diverged, RealTimePacer, RecordError, RecordingSummary};
 use periplus_web::foxglove::{ClientSession, FrameKind, OutboxItem};
 
 use crate::opened::OpenedSession;
 use crate::options::TabOptions;
+
+/// Period of announcements and of the time to the client, as on a server.
+const HUB_PERIOD: Duration = Duration::from_millis(20);
+
+/// Wait for requests while the world is paused, at most.
+const PAUSED_WAIT: Duration = Duration::from_millis(20);
 
 /// A message to the client.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -69,6 +77,8 @@ pub struct Tab {
     hub: Option<PageHub>,
     task: DemoTask,
     session: SimulationSession,
+    pace: RealTimePacer,
+    since_hub: Stopwatch,
 }
 
 impl Tab {
@@ -89,22 +99,70 @@ impl Tab {
         let hub = context.map(|context| session.open_hub(&context)).transpose()?;
         let client =
             hub.as_ref().map(|hub| hub.hub.join().ok_or(TabError::NoClient)).transpose()?;
-        Ok(Self { client, hub, task, session })
+        let pace = RealTimePacer::new(session.factor(), session.simulation().time_ns());
+        Ok(Self { client, hub, task, session, pace, since_hub: Stopwatch::start() })
     }
 
-    /// Steps until a simulated time, and serves the requests of the client. Only serves while the world is paused.
+    /// Steps at the real-time factor of the world until no step is due or this much wall time has passed, and serves
+    /// the requests of the client. Returns the time until the next step is due. Time that was lost, as by a hidden
+    /// page, is skipped.
+    ///
+    /// # Errors
+    /// When the motion of a body diverges.
+    pub fn run_paced(&mut self, budget: Duration) -> Result<Duration, TabError> {
+        let stopwatch = Stopwatch::start();
+        loop {
+            let before_ns = self.time_ns();
+            self.session.serve();
+            let time_ns = self.time_ns();
+            if let Some(factor) = self.session.take_factor() {
+                self.pace = RealTimePacer::new(factor, time_ns);
+            }
+            let is_paused = self.session.is_paused();
+            if is_paused || time_ns < before_ns {
+                self.pace.restart(time_ns);
+            }
+            let wait = if is_paused { Some(PAUSED_WAIT) } else { self.pace.until(time_ns) };
+            if wait.is_none() {
+                self.step(i64::MAX)?;
+            }
+            if self.since_hub.elapsed() >= HUB_PERIOD {
+                self.since_hub = Stopwatch::start();
+                self.spin_hub();
+            }
+            match wait {
+                Some(wait) => return Ok(wait.min(HUB_PERIOD)),
+                None if stopwatch.elapsed() >= budget => return Ok(Duration::ZERO),
+                None => {}
+            }
+        }
+    }
+
+    fn step(&mut self, end_ns: i64) -> Result<(), TabError> {
+        self.session.step_until(end_ns).map_err(TabError::Diverged)?;
+        self.task.spin_once(self.session.simulation().time_ns());
+        Ok(())
+    }
+
+    fn spin_hub(&self) {
+        if let Some(hub) = &self.hub {
+            hub.hub.spin_once();
+        }
+    }
+
+    /// Steps until a simulated time, and serves the requests of the client. Only serves while the world is paused, and
+    /// ends where a client sets the time back.
     ///
     /// # Errors
     /// When the motion of a body diverges.
     pub fn step_until(&mut self, end_ns: i64) -> Result<(), TabError> {
+        let mut reached_ns = self.time_ns();
         self.session.serve();
-        while self.time_ns() < end_ns && !self.session.is_paused() {
-            self.session.step_until(end_ns).map_err(TabError::Diverged)?;
-            self.task.spin_once(self.session.simulation().time_ns());
+        while (reached_ns..end_ns).contains(&self.time_ns()) && !self.session.is_paused() {
+            reached_ns = self.time_ns();
+            self.step(end_ns)?;
         }
-        if let Some(hub) = &self.hub {
-            hub.hub.spin_once();
-        }
+        self.spin_hub();
         Ok(())
     }
 

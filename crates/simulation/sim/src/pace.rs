@@ -35,15 +35,25 @@ impl RealTimePacer {
 
     /// Waits until wall time has reached a simulated time.
     pub fn wait(&mut self, time_ns: i64) {
-        let Some(factor) = self.factor else { return };
-        #[expect(clippy::cast_precision_loss, reason = "a run lasts less than 2^53 ns")]
-        let wanted_s = (time_ns - self.start_ns) as f64 * 1e-9 / factor;
-        let ahead_s = wanted_s - self.stopwatch.elapsed().as_secs_f64();
-        if ahead_s > MIN_WAIT_S {
-            sleep(Duration::from_secs_f64(ahead_s));
-        } else if ahead_s < -MAX_LAG_S {
+        if let Some(wait) = self.until(time_ns) {
+            sleep(wait);
+        }
+    }
+
+    /// Time until wall time has reached a simulated time; `None` if it has, or if the rest is not worth a wait.
+    pub fn until(&mut self, time_ns: i64) -> Option<Duration> {
+        let ahead_s = self.ahead_s(time_ns, self.stopwatch.elapsed())?;
+        if ahead_s < -MAX_LAG_S {
             self.restart(time_ns);
         }
+        (ahead_s > MIN_WAIT_S).then(|| Duration::from_secs_f64(ahead_s))
+    }
+
+    /// Wall time by which a simulated time is ahead \[s\]; `None` without a factor.
+    fn ahead_s(&self, time_ns: i64, elapsed: Duration) -> Option<f64> {
+        #[expect(clippy::cast_precision_loss, reason = "a run lasts less than 2^53 ns")]
+        let wanted_s = (time_ns - self.start_ns) as f64 * 1e-9 / self.factor?;
+        Some(wanted_s - elapsed.as_secs_f64())
     }
 }
 
@@ -60,6 +70,13 @@ mod tests {
         }
         let elapsed = stopwatch.elapsed();
         assert!(elapsed >= Duration::from_millis(48), "{elapsed:?}");
+    }
+
+    #[test]
+    fn half_as_fast_is_ahead_by_twice_the_time() {
+        let pace = RealTimePacer::new(Some(0.5), 1_000_000_000);
+        let ahead_s = pace.ahead_s(2_000_000_000, Duration::from_millis(1500));
+        assert_eq!(ahead_s, Some(0.5), "1 s takes 2 s, of which 1.5 s have passed");
     }
 
     #[test]

@@ -176,10 +176,14 @@ pub struct WriteSettings {
 }
 
 impl WriteSettings {
-    /// Default settings of a storage format: MCAP with Zstandard, others uncompressed.
+    /// Default settings of a storage format: MCAP with Zstandard, in WebAssembly with LZ4, others uncompressed.
     #[must_use]
     pub fn new(storage: Storage) -> Self {
-        let chunks = if storage == Storage::Mcap { ChunkPacking::Zstd } else { ChunkPacking::None };
+        let chunks = match storage {
+            Storage::Mcap if cfg!(target_family = "wasm") => ChunkPacking::Lz4,
+            Storage::Mcap => ChunkPacking::Zstd,
+            _ => ChunkPacking::None,
+        };
         Self {
             storage,
             chunks,

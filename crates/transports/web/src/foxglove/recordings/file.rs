@@ -1,11 +1,11 @@
 //! File of a recording, for a client that keeps it.
 #![expect(clippy::disallowed_methods, reason = "transports are an edge: this file is on the disk")]
 
-use std::fs::{self, File};
 use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
 use periplus_diagnostics::plain_words;
+use periplus_os::fs::{self, File};
 
 use super::entry::Recording;
 use super::fetch::FetchAnswer;
@@ -53,14 +53,14 @@ fn send(path: &Path, answer: &FetchAnswer<'_>) -> Result<(), String> {
 
 /// The file itself, or the only file with messages in a folder.
 fn only_file(path: &Path) -> Result<PathBuf, String> {
-    if !path.is_dir() {
+    if !fs::is_dir(path) {
         return Ok(path.to_owned());
     }
     let failed = |error: io::Error| format!("`{}`: {}", path.display(), plain_words(&error));
     let mut files = Vec::new();
     for entry in fs::read_dir(path).map_err(failed)? {
         let file = entry.map_err(failed)?.path();
-        if file.is_file() && file.file_name().is_some_and(|name| name != "metadata.yaml") {
+        if fs::is_file(&file) && file.file_name().is_some_and(|name| name != "metadata.yaml") {
             files.push(file);
         }
     }
