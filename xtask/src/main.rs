@@ -13,6 +13,7 @@ mod codegen;
 mod corpus;
 mod costmap;
 mod determinism;
+mod dist;
 mod docs;
 mod drive;
 mod fuzz;
@@ -23,6 +24,7 @@ mod package;
 mod parallel;
 mod physics;
 mod pictures;
+mod platforms;
 mod python;
 mod rays;
 mod ros2;
@@ -185,8 +187,15 @@ enum Task {
         #[arg(long, default_value_t = 2)]
         jobs: usize,
     },
-    /// Compare the bags of different builds and numbers of threads
+    /// Compare the bags of different builds and numbers of threads, and of every platform whose program is built by
+    /// `dist` and runs on this machine
     Determinism,
+    /// Build the files of a release: archives with programs, wheels, the package for npm, bills of materials,
+    /// checksums. zig links for every system; it comes from PyPI
+    Dist(dist::Options),
+    /// Run the programs that `dist` built as on their systems, and compare their files with those of this machine: arm64
+    /// by QEMU, Windows by Wine, musl without any other file
+    Platforms(platforms::Options),
     /// Run all commands on hostile inputs, generated from a fixed seed: crashes, time-outs over 10 s and memory
     /// over 500 MB are faults
     Attack {
@@ -370,6 +379,8 @@ fn perform(task: &Task) -> Result<(), Failed> {
             goals::evaluate(&goals::Plan { goals: *goals, only: only.clone(), jobs: *jobs })
         }
         Task::Determinism => determinism::check(),
+        Task::Dist(options) => dist::run(options),
+        Task::Platforms(options) => platforms::run(options),
         Task::Pictures => pictures::draw(),
         Task::Viewer(Page::Build) => viewer::build(),
         Task::Viewer(Page::Check) => viewer::check(),

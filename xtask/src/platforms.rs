@@ -1,0 +1,237 @@
+//! `cargo xtask platforms`: the programs that `cargo xtask dist` built, run on what is like their systems: arm64 by QEMU,
+//! Windows by Wine, and musl where there is nothing but the program.
+
+mod page;
+mod runner;
+mod tests;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+pub(crate) use runner::Runner;
+
+use crate::dist::{TARGETS, Target, program};
+use crate::step::{Failed, build_program, root, timed};
+
+/// Wish of the caller.
+#[derive(clap::Args)]
+pub(crate) struct Options {
+    /// Target triple; repeatable. By default all whose program is built
+    #[arg(long = "target", value_name = "TRIPLE", value_parser = crate::dist::parse)]
+    targets: Vec<&'static Target>,
+    /// Also run the unit tests of central libraries, which are compiled for the target first
+    #[arg(long)]
+    tests: bool,
+}
+
+/// Robot of the checks.
+const ROBOT: &str = "robots/sam_bot/urdf/sam_bot.urdf.xacro";
+
+/// Runs all checks on each target.
+///
+/// # Errors
+/// When a program behaves differently from that of this machine, or nothing could be run.
+pub(crate) fn run(options: &Options) -> Result<(), Failed> {
+    let is_chosen = |target: &&Target| match options.targets.as_slice() {
+        [] => program(target).is_file(),
+        chosen => chosen.contains(target),
+    };
+    let chosen: Vec<&'static Target> = TARGETS.iter().filter(is_chosen).collect();
+    build_program()?;
+    let native = Folder::new("native")?;
+    let mut count = 0;
+    for target in chosen {
+        if !program(target).is_file() {
+            let triple = target.triple;
+            return Err(Failed(format!(
+                "no program for {triple}: run `cargo xtask dist --target {triple}` first"
+            )));
+        }
+        match Runner::of(target) {
+            Err(why) => eprintln!("SKIPPED: {}: {why}", target.triple),
+            Ok(runner) => {
+                timed(target.triple, || check(target, &runner, &native, options.tests))?;
+                count += 1;
+            }
+        }
+    }
+    if count == 0 {
+        return Err(Failed("nothing was run: build programs with `cargo xtask dist`".to_owned()));
+    }
+    println!("{count} platforms behave like this machine");
+    Ok(())
+}
+
+/// Programs that run here, with runners that see all files; the others are reported.
+pub(crate) fn built() -> Vec<(&'static Target, Runner)> {
+    let built = TARGETS.iter().filter(|target| program(target).is_file());
+    let with_runner = built.filter_map(|target| match Runner::of(target) {
+        Ok(runner) => Some((target, runner.with_program(program(target)))),
+        Err(why) => {
+            eprintln!("SKIPPED: {}: {why}", target.triple);
+            None
+        }
+    });
+    with_runner.collect()
+}
+
+/// A folder of results, in which a program runs.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Result<Self, Failed> {
+        let path = root().join("target/platforms").join(name);
+        let failed = |error: std::io::Error| Failed(format!("{}: {error}", path.display()));
+        if path.exists() {
+            fs::remove_dir_all(&path).map_err(failed)?;
+        }
+        fs::create_dir_all(&path).map_err(failed)?;
+        Ok(Self(path))
+    }
+
+    fn read(&self, name: &str) -> Result<Vec<u8>, Failed> {
+        let path = self.0.join(name);
+        fs::read(&path).map_err(|error| Failed(format!("{}: {error}", path.display())))
+    }
+}
+
+/// A check: its name, the words of the command, and the files that it writes, which must be equal to those of the program
+/// of this machine.
+struct Check {
+    name: &'static str,
+    words: &'static [&'static str],
+    files: &'static [&'static str],
+}
+
+/// Checks, in an order in which later ones read the files of earlier ones.
+const CHECKS: [Check; 4] = [
+    Check { name: "check", words: &["check", "robot.urdf"], files: &[] },
+    Check {
+        name: "demo --headless",
+        words: &[
+            "demo",
+            "--headless",
+            "--duration",
+            "8",
+            "--bag-compression",
+            "none",
+            "--out",
+            "demo",
+        ],
+        files: &["demo/demo.mcap", "demo/map.pgm", "demo/map.yaml"],
+    },
+    Check {
+        name: "sim --record",
+        words: &[
+            "sim",
+            "world.sdf",
+            "--robot",
+            "robot.urdf",
+            "--duration",
+            "0.6",
+            "--seed",
+            "7",
+            "--quiet",
+            "--record",
+            "run.mcap",
+        ],
+        files: &["run.mcap"],
+    },
+    Check {
+        name: "slam",
+        words: &["slam", "demo/demo.mcap", "--out", "map"],
+        files: &["map/map.pgm", "map/map.yaml"],
+    },
+];
+
+fn check(target: &Target, runner: &Runner, native: &Folder, tests: bool) -> Result<(), Failed> {
+    let folder = Folder::new(target.triple)?;
+    let runner = runner.in_folder(&folder.0)?;
+    let host = Runner::Native(root().join("target/release/periplus"));
+    version(&runner, &folder.0)?;
+    identity(target, &runner, &folder.0)?;
+    for it in [&folder.0, &native.0] {
+        inputs(&host, it)?;
+    }
+    for check in &CHECKS {
+        let printed = output(&runner, &folder.0, check.words)?;
+        let expected = output(&host, &native.0, check.words)?;
+        // What is printed besides has times in it.
+        if check.files.is_empty() && printed.replace("\r\n", "\n") != expected {
+            return Err(Failed(format!(
+                "`periplus {}` printed\n{printed}\nand on this machine\n{expected}",
+                check.words.join(" ")
+            )));
+        }
+        for name in check.files {
+            same(name, &folder.read(name)?, &native.read(name)?)?;
+        }
+        println!("{}: as on this machine", check.name);
+    }
+    page::serve(&runner, &folder.0)?;
+    println!("page: served");
+    if tests { tests::run(target, &runner) } else { Ok(()) }
+}
+
+/// Writes a robot and a world without other files, since an empty folder is all that some programs see.
+fn inputs(host: &Runner, folder: &Path) -> Result<(), Failed> {
+    let robot = root().join(ROBOT).display().to_string();
+    let out = folder.join("robot.urdf").display().to_string();
+    output(host, &root(), &["convert", &robot, "--to", "urdf", "-o", &out])?;
+    let world = root().join("worlds/closed_room.world");
+    fs::copy(&world, folder.join("world.sdf"))
+        .map(drop)
+        .map_err(|error| Failed(format!("{}: {error}", world.display())))
+}
+
+fn version(runner: &Runner, folder: &Path) -> Result<(), Failed> {
+    let printed = output(runner, folder, &["--version"])?;
+    let expected = format!("periplus {}", crate::dist::version());
+    if printed.trim() != expected {
+        return Err(Failed(format!("`--version` printed `{printed}` in place of `{expected}`")));
+    }
+    Ok(())
+}
+
+/// The program knows its target, and finds no error on the machine.
+fn identity(target: &Target, runner: &Runner, folder: &Path) -> Result<(), Failed> {
+    let printed = output(runner, folder, &["doctor", "--self", "--json"])?;
+    let report: serde_json::Value = serde_json::from_str(&printed)
+        .map_err(|error| Failed(format!("`doctor --self --json` printed `{printed}`: {error}")))?;
+    if report["program"]["target"] != target.triple {
+        return Err(Failed(format!("the program takes itself for {}", report["program"])));
+    }
+    println!("doctor --self: {}", report["status"]);
+    Ok(())
+}
+
+/// Standard output of a command that succeeds.
+fn output(runner: &Runner, folder: &Path, words: &[&str]) -> Result<String, Failed> {
+    let mut command = runner.command();
+    let output = command.args(words).current_dir(folder).output();
+    let output = output.map_err(|error| Failed(format!("{}: {error}", runner.name())))?;
+    if !output.status.success() {
+        return Err(Failed(format!(
+            "`periplus {}` failed by {} ({}):\n{}{}",
+            words.join(" "),
+            runner.name(),
+            output.status,
+            String::from_utf8_lossy(&output.stdout),
+            String::from_utf8_lossy(&output.stderr)
+        )));
+    }
+    Ok(String::from_utf8_lossy(&output.stdout).into_owned())
+}
+
+fn same(name: &str, one: &[u8], other: &[u8]) -> Result<(), Failed> {
+    if one == other {
+        return Ok(());
+    }
+    let at = one.iter().zip(other).take_while(|(a, b)| a == b).count();
+    Err(Failed(format!(
+        "{name} differs from that of this machine at byte {at} ({} and {} bytes): a function differs by platform, \
+         such as `f64::sin` in place of `libm::sin`",
+        one.len(),
+        other.len()
+    )))
+}
