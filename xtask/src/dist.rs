@@ -15,7 +15,7 @@ mod wheel;
 
 use std::path::{Path, PathBuf};
 
-pub(crate) use build::{command as build_command, program};
+pub(crate) use build::{Profile, command as build_command, last_program};
 pub(crate) use target::{TARGETS, Target, parse};
 pub(crate) use wheel::check_in_clean_environments;
 
@@ -27,6 +27,9 @@ pub(crate) struct Options {
     /// Target triple; repeatable. By default all Linux and Windows targets, or on macOS those of macOS
     #[arg(long = "target", value_name = "TRIPLE", value_parser = parse)]
     targets: Vec<&'static Target>,
+    /// Build profile
+    #[arg(long, value_enum, default_value_t = Profile::Dist)]
+    profile: Profile,
     /// Output folder
     #[arg(long, value_name = "DIR", default_value = "target/distribution/out")]
     out: PathBuf,
@@ -62,7 +65,9 @@ pub(crate) fn run(options: &Options) -> Result<(), Failed> {
     };
     if options.wheels {
         for target in chosen.iter().filter(|target| target.has_wheel()) {
-            timed(&format!("dist: wheel for {}", target.triple), || wheel::build(target, &out))?;
+            timed(&format!("dist: wheel for {}", target.triple), || {
+                wheel::build(target, &out, options.profile)
+            })?;
         }
         if options.install {
             timed("dist: wheel in clean environments", || check_in_clean_environments(&out))?;
@@ -71,16 +76,21 @@ pub(crate) fn run(options: &Options) -> Result<(), Failed> {
     }
     for target in chosen {
         timed(&format!("dist: {}", target.triple), || {
-            let archive = archive_of(&root(), target, &out)?;
-            if options.twice { twice::compare(target, &archive) } else { Ok(()) }
+            let archive = archive_of(&root(), target, options.profile, &out)?;
+            if options.twice { twice::compare(target, options.profile, &archive) } else { Ok(()) }
         })?;
     }
     checksums::write_list(&out)
 }
 
 /// Builds the program from the sources in `source` and packs it; returns the archive.
-pub(super) fn archive_of(source: &Path, target: &Target, out: &Path) -> Result<PathBuf, Failed> {
-    let program = build::build(source, target)?;
+pub(super) fn archive_of(
+    source: &Path,
+    target: &Target,
+    profile: Profile,
+    out: &Path,
+) -> Result<PathBuf, Failed> {
+    let program = build::build(source, target, profile)?;
     let files = contents::gather(source, target, &program)?;
     let name = format!("periplus-{}-{}", version(), target.triple);
     let packed = archive::pack(target.archive, &name, &files, build::source_date(source)?)?;

@@ -39,6 +39,7 @@ mod tutorials;
 mod viewer;
 mod wasm;
 mod wire;
+mod workflows;
 mod zenoh;
 
 use std::process::ExitCode;
@@ -244,6 +245,8 @@ enum Task {
         #[arg(long, conflicts_with = "only")]
         update: bool,
     },
+    /// Check the workflows of releases with actionlint, and test the action `periplus-check`
+    Workflows,
     /// Run fuzz targets, starting from the seeds in `fuzz/seeds`
     Fuzz {
         /// Duration of each target [s]
@@ -390,6 +393,7 @@ fn perform(task: &Task) -> Result<(), Failed> {
         Task::Zenoh => zenoh::check(),
         Task::Python { update: true, .. } => python::update(),
         Task::Python { only, .. } => python::check(*only),
+        Task::Workflows => workflows::check(),
         Task::Fuzz { seconds, targets } => fuzz::run_all(*seconds, targets),
     }
 }

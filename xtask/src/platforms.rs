@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 pub(crate) use runner::Runner;
 
-use crate::dist::{TARGETS, Target, program};
+use crate::dist::{Profile, TARGETS, Target, last_program};
 use crate::step::{Failed, build_program, root, timed};
 
 /// Wish of the caller.
@@ -33,7 +33,7 @@ const ROBOT: &str = "robots/sam_bot/urdf/sam_bot.urdf.xacro";
 /// When a program behaves differently from that of this machine, or nothing could be run.
 pub(crate) fn run(options: &Options) -> Result<(), Failed> {
     let is_chosen = |target: &&Target| match options.targets.as_slice() {
-        [] => program(target).is_file(),
+        [] => last_program(target).is_some(),
         chosen => chosen.contains(target),
     };
     let chosen: Vec<&'static Target> = TARGETS.iter().filter(is_chosen).collect();
@@ -41,16 +41,17 @@ pub(crate) fn run(options: &Options) -> Result<(), Failed> {
     let native = Folder::new("native")?;
     let mut count = 0;
     for target in chosen {
-        if !program(target).is_file() {
+        let Some((program, profile)) = last_program(target) else {
             let triple = target.triple;
             return Err(Failed(format!(
                 "no program for {triple}: run `cargo xtask dist --target {triple}` first"
             )));
-        }
-        match Runner::of(target) {
+        };
+        match Runner::of(target, program) {
             Err(why) => eprintln!("SKIPPED: {}: {why}", target.triple),
             Ok(runner) => {
-                timed(target.triple, || check(target, &runner, &native, options.tests))?;
+                let tests = options.tests.then_some(profile);
+                timed(target.triple, || check(target, &runner, &native, tests))?;
                 count += 1;
             }
         }
@@ -64,14 +65,15 @@ pub(crate) fn run(options: &Options) -> Result<(), Failed> {
 
 /// Programs that run here, with runners that see all files; the others are reported.
 pub(crate) fn built() -> Vec<(&'static Target, Runner)> {
-    let built = TARGETS.iter().filter(|target| program(target).is_file());
-    let with_runner = built.filter_map(|target| match Runner::of(target) {
-        Ok(runner) => Some((target, runner.with_program(program(target)))),
-        Err(why) => {
-            eprintln!("SKIPPED: {}: {why}", target.triple);
-            None
-        }
-    });
+    let built = TARGETS.iter().filter_map(|target| Some((target, last_program(target)?.0)));
+    let with_runner =
+        built.filter_map(|(target, program)| match Runner::of(target, program.clone()) {
+            Ok(runner) => Some((target, runner.with_program(program))),
+            Err(why) => {
+                eprintln!("SKIPPED: {}: {why}", target.triple);
+                None
+            }
+        });
     with_runner.collect()
 }
 
@@ -144,7 +146,12 @@ const CHECKS: [Check; 4] = [
     },
 ];
 
-fn check(target: &Target, runner: &Runner, native: &Folder, tests: bool) -> Result<(), Failed> {
+fn check(
+    target: &Target,
+    runner: &Runner,
+    native: &Folder,
+    tests: Option<Profile>,
+) -> Result<(), Failed> {
     let folder = Folder::new(target.triple)?;
     let runner = runner.in_folder(&folder.0)?;
     let host = Runner::Native(root().join("target/release/periplus"));
@@ -170,7 +177,7 @@ fn check(target: &Target, runner: &Runner, native: &Folder, tests: bool) -> Resu
     }
     page::serve(&runner, &folder.0)?;
     println!("page: served");
-    if tests { tests::run(target, &runner) } else { Ok(()) }
+    tests.map_or(Ok(()), |profile| tests::run(target, profile, &runner))
 }
 
 /// Writes a robot and a world without other files, since an empty folder is all that some programs see.

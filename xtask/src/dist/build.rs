@@ -7,27 +7,48 @@ use super::target::Target;
 use super::tools;
 use crate::step::{Failed, cargo, root, run};
 
-/// Build profile of a release.
-const PROFILE: &str = "dist";
+/// Build profile.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum Profile {
+    /// Optimized across crates: for releases
+    Dist,
+    /// Built faster: for checks of a platform
+    Release,
+}
+
+impl Profile {
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Dist => "dist",
+            Self::Release => "release",
+        }
+    }
+}
 
 /// Builds the program from the sources in `source`; returns its path.
-pub(super) fn build(source: &Path, target: &Target) -> Result<PathBuf, Failed> {
-    let mut command = command(source, target)?;
+pub(super) fn build(source: &Path, target: &Target, profile: Profile) -> Result<PathBuf, Failed> {
+    let mut command = command(source, target, profile)?;
     run(command.args(["--package", "periplus-cli"]), &help(target))?;
-    Ok(program_in(source, target))
+    Ok(program_in(source, target, profile))
 }
 
-/// Path of the program that [`build`] makes of the sources of this tree.
-pub(crate) fn program(target: &Target) -> PathBuf {
-    program_in(&root(), target)
+/// Path and profile of the program that was last built of this tree.
+pub(crate) fn last_program(target: &Target) -> Option<(PathBuf, Profile)> {
+    let programs =
+        [Profile::Dist, Profile::Release].map(|it| (program_in(&root(), target, it), it));
+    programs
+        .into_iter()
+        .filter(|(path, _)| path.is_file())
+        .max_by_key(|(path, _)| std::fs::metadata(path).and_then(|it| it.modified()).ok())
 }
 
-fn program_in(source: &Path, target: &Target) -> PathBuf {
-    source.join("target").join(target.triple).join(PROFILE).join(target.executable("periplus"))
+fn program_in(source: &Path, target: &Target, profile: Profile) -> PathBuf {
+    let folder = source.join("target").join(target.triple).join(profile.name());
+    folder.join(target.executable("periplus"))
 }
 
 /// A build by cargo, without the packages.
-pub(crate) fn command(source: &Path, target: &Target) -> Result<Command, Failed> {
+pub(crate) fn command(source: &Path, target: &Target, profile: Profile) -> Result<Command, Failed> {
     let mut command = cargo();
     command.current_dir(source);
     // Apple's own linker where it is; zig elsewhere.
@@ -37,13 +58,17 @@ pub(crate) fn command(source: &Path, target: &Target) -> Result<Command, Failed>
         command.args(["zigbuild", "--target", &target.linker_triple()]);
         command.env("PATH", tools::path()?);
     }
-    command.args(["--locked", "--quiet", "--profile", PROFILE]);
-    environment(&mut command, source)?;
+    command.args(["--locked", "--quiet", "--profile", profile.name()]);
+    environment(&mut command, source, profile)?;
     Ok(command)
 }
 
 /// Sets the variables by which two builds are equal: paths are replaced, and the time is that of the last commit.
-pub(super) fn environment(command: &mut Command, source: &Path) -> Result<(), Failed> {
+pub(super) fn environment(
+    command: &mut Command,
+    source: &Path,
+    profile: Profile,
+) -> Result<(), Failed> {
     let replaced = replaced_paths(source)?;
     let flags = |option: &str| -> String {
         let flags = replaced.iter().map(|(from, to)| format!("{option}={from}={to}"));
@@ -52,7 +77,7 @@ pub(super) fn environment(command: &mut Command, source: &Path) -> Result<(), Fa
     command.env("RUSTFLAGS", flags("--remap-path-prefix"));
     command.env("CFLAGS", flags("-ffile-prefix-map"));
     command.env("SOURCE_DATE_EPOCH", source_date(&root())?.to_string());
-    command.env("PERIPLUS_BUILD_PROFILE", PROFILE).env("PERIPLUS_BUILD_COMMIT", commit()?);
+    command.env("PERIPLUS_BUILD_PROFILE", profile.name()).env("PERIPLUS_BUILD_COMMIT", commit()?);
     command.env("CARGO_TARGET_DIR", source.join("target")).env("CARGO_INCREMENTAL", "0");
     Ok(())
 }

@@ -30,7 +30,7 @@ pub(super) fn pack(out: &Path) -> Result<(), Failed> {
     }
     let mut command = cargo();
     command.args(["build", "--quiet", "--locked", "--profile", "wasm", "--target", TARGET]);
-    build::environment(&mut command, &root())?;
+    build::environment(&mut command, &root(), build::Profile::Dist)?;
     // C is not compiled for this target.
     command.env_remove("CFLAGS");
     let help = format!("see the errors above; `rustup target add {TARGET}` adds the target");

@@ -3,13 +3,14 @@
 use std::path::Path;
 use std::process::Command;
 
+use super::build::Profile;
 use super::target::Target;
 use super::{archive_of, checksums, make_folder, read};
 use crate::step::{Failed, root};
 
 /// Builds the archive of a target from a copy of the tracked files, without anything that was built before, and
 /// compares it.
-pub(super) fn compare(target: &Target, first: &Path) -> Result<(), Failed> {
+pub(super) fn compare(target: &Target, profile: Profile, first: &Path) -> Result<(), Failed> {
     let folder = root().join("target/distribution/second");
     let failed = |error: std::io::Error| Failed(format!("{}: {error}", folder.display()));
     if folder.exists() {
@@ -19,7 +20,7 @@ pub(super) fn compare(target: &Target, first: &Path) -> Result<(), Failed> {
     copy_tracked(&source)?;
     let out = folder.join("out");
     make_folder(&out)?;
-    let second = archive_of(&source, target, &out)?;
+    let second = archive_of(&source, target, profile, &out)?;
     let (one, other) = (read(first)?, read(&second)?);
     if one != other {
         let at = one.iter().zip(&other).take_while(|(a, b)| a == b).count();

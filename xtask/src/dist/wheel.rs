@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use super::build;
+use super::build::{self, Profile};
 use super::target::Target;
 use super::tools;
 use super::{make_folder, version};
@@ -16,13 +16,13 @@ const MINORS: std::ops::RangeInclusive<u32> = 10..=14;
 const USE: &str = "xtask/src/dist/use_wheel.py";
 
 /// Builds the wheel for a target into `out`.
-pub(super) fn build(target: &Target, out: &Path) -> Result<(), Failed> {
+pub(super) fn build(target: &Target, out: &Path, profile: Profile) -> Result<(), Failed> {
     let python = tools::programs()?.join("python");
     let mut command = Command::new(python);
-    command.args(["-m", "maturin", "build", "--profile", "dist", "--locked", "--quiet"]);
+    command.args(["-m", "maturin", "build", "--profile", profile.name(), "--locked", "--quiet"]);
     command.args(["--target", target.triple, "--zig", "--compatibility", target.wheel_tag()]);
     command.arg("--out").arg(out).current_dir(root());
-    build::environment(&mut command, &root())?;
+    build::environment(&mut command, &root(), profile)?;
     command.env("PATH", tools::path()?);
     run(&mut command, "see the errors above")?;
     let wheel = path(target, out)?;

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::dist::{Target, program};
+use crate::dist::Target;
 use crate::step::{Failed, root};
 
 /// A program, and what runs it.
@@ -23,12 +23,11 @@ pub(crate) enum Runner {
 const ARM_LIBRARIES: &str = "/usr/aarch64-linux-gnu";
 
 impl Runner {
-    /// Runner of a target on this machine.
+    /// Runner of the program of a target on this machine.
     ///
     /// # Errors
     /// What is missing, and what to do.
-    pub(crate) fn of(target: &Target) -> Result<Self, String> {
-        let program = program(target);
+    pub(crate) fn of(target: &Target, program: PathBuf) -> Result<Self, String> {
         if target.is_apple() && !target.is_native() {
             return Err("programs of macOS run on macOS only".to_owned());
         }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use serde_json::Value;
 
 use super::Runner;
-use crate::dist::{Target, build_command};
+use crate::dist::{Profile, Target, build_command};
 use crate::step::{Failed, root};
 
 /// Libraries whose tests compute, read and write, without a network and other programs.
@@ -19,8 +19,8 @@ const LIBRARIES: [&str; 6] = [
 ];
 
 /// Compiles and runs the tests.
-pub(super) fn run(target: &Target, runner: &Runner) -> Result<(), Failed> {
-    let mut command = build_command(&root(), target)?;
+pub(super) fn run(target: &Target, profile: Profile, runner: &Runner) -> Result<(), Failed> {
+    let mut command = build_command(&root(), target, profile)?;
     command.args(["--tests", "--lib", "--message-format", "json"]);
     command.args(LIBRARIES.iter().flat_map(|name| ["--package", name]));
     let output = command.output().map_err(|error| Failed(format!("cargo zigbuild: {error}")))?;
