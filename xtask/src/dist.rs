@@ -17,6 +17,7 @@ use std::path::{Path, PathBuf};
 
 pub(crate) use build::{Profile, command as build_command, last_program};
 pub(crate) use target::{TARGETS, Target, parse};
+pub(crate) use tools::zig;
 pub(crate) use wheel::check_in_clean_environments;
 
 use crate::step::{Failed, root, timed};

@@ -4,6 +4,7 @@
 mod page;
 mod runner;
 mod tests;
+mod wine;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -11,7 +12,7 @@ use std::path::{Path, PathBuf};
 pub(crate) use runner::Runner;
 
 use crate::dist::{Profile, TARGETS, Target, last_program};
-use crate::step::{Failed, build_program, root, timed};
+use crate::step::{Failed, build_native, root, timed};
 
 /// Wish of the caller.
 #[derive(clap::Args)]
@@ -19,6 +20,9 @@ pub(crate) struct Options {
     /// Target triple; repeatable. By default all whose program is built
     #[arg(long = "target", value_name = "TRIPLE", value_parser = crate::dist::parse)]
     targets: Vec<&'static Target>,
+    /// Program of this machine to compare with, in place of a release build
+    #[arg(long, value_name = "FILE")]
+    program: Option<PathBuf>,
     /// Also run the unit tests of central libraries, which are compiled for the target first
     #[arg(long)]
     tests: bool,
@@ -37,7 +41,11 @@ pub(crate) fn run(options: &Options) -> Result<(), Failed> {
         chosen => chosen.contains(target),
     };
     let chosen: Vec<&'static Target> = TARGETS.iter().filter(is_chosen).collect();
-    build_program()?;
+    let host = match &options.program {
+        Some(program) => root().join(program),
+        None => build_native()?,
+    };
+    let host = Runner::Native(host);
     let native = Folder::new("native")?;
     let mut count = 0;
     for target in chosen {
@@ -51,7 +59,7 @@ pub(crate) fn run(options: &Options) -> Result<(), Failed> {
             Err(why) => eprintln!("SKIPPED: {}: {why}", target.triple),
             Ok(runner) => {
                 let tests = options.tests.then_some(profile);
-                timed(target.triple, || check(target, &runner, &native, tests))?;
+                timed(target.triple, || check(target, &runner, (&host, &native), tests))?;
                 count += 1;
             }
         }
@@ -149,20 +157,19 @@ const CHECKS: [Check; 4] = [
 fn check(
     target: &Target,
     runner: &Runner,
-    native: &Folder,
+    (host, native): (&Runner, &Folder),
     tests: Option<Profile>,
 ) -> Result<(), Failed> {
     let folder = Folder::new(target.triple)?;
     let runner = runner.in_folder(&folder.0)?;
-    let host = Runner::Native(root().join("target/release/periplus"));
     version(&runner, &folder.0)?;
     identity(target, &runner, &folder.0)?;
     for it in [&folder.0, &native.0] {
-        inputs(&host, it)?;
+        inputs(host, it)?;
     }
     for check in &CHECKS {
         let printed = output(&runner, &folder.0, check.words)?;
-        let expected = output(&host, &native.0, check.words)?;
+        let expected = output(host, &native.0, check.words)?;
         // What is printed besides has times in it.
         if check.files.is_empty() && printed.replace("\r\n", "\n") != expected {
             return Err(Failed(format!(
@@ -175,9 +182,28 @@ fn check(
         }
         println!("{}: as on this machine", check.name);
     }
+    tree(&runner, host)?;
     page::serve(&runner, &folder.0)?;
     println!("page: served");
     tests.map_or(Ok(()), |profile| tests::run(target, profile, &runner))
+}
+
+/// A robot of several files and a world with models, by relative paths. A program that sees no other files has neither.
+fn tree(runner: &Runner, host: &Runner) -> Result<(), Failed> {
+    if matches!(runner, Runner::Chroot { .. }) {
+        return Ok(());
+    }
+    for file in [ROBOT, "worlds/house.sdf"] {
+        let printed = output(runner, &root(), &["check", file])?.replace("\r\n", "\n");
+        let expected = output(host, &root(), &["check", file])?;
+        if printed != expected {
+            return Err(Failed(format!(
+                "`periplus check {file}` printed\n{printed}\nand on this machine\n{expected}"
+            )));
+        }
+    }
+    println!("check of files that include others: as on this machine");
+    Ok(())
 }
 
 /// Writes a robot and a world without other files, since an empty folder is all that some programs see.

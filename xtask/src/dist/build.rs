@@ -12,8 +12,10 @@ use crate::step::{Failed, cargo, root, run};
 pub(crate) enum Profile {
     /// Optimized across crates: for releases
     Dist,
-    /// Built faster: for checks of a platform
+    /// Optimized, as everyone builds it
     Release,
+    /// Hardly optimized, built in half the time: for checks of a platform
+    Quick,
 }
 
 impl Profile {
@@ -21,6 +23,7 @@ impl Profile {
         match self {
             Self::Dist => "dist",
             Self::Release => "release",
+            Self::Quick => "quick",
         }
     }
 }
@@ -34,8 +37,8 @@ pub(super) fn build(source: &Path, target: &Target, profile: Profile) -> Result<
 
 /// Path and profile of the program that was last built of this tree.
 pub(crate) fn last_program(target: &Target) -> Option<(PathBuf, Profile)> {
-    let programs =
-        [Profile::Dist, Profile::Release].map(|it| (program_in(&root(), target, it), it));
+    let programs = [Profile::Dist, Profile::Release, Profile::Quick]
+        .map(|it| (program_in(&root(), target, it), it));
     programs
         .into_iter()
         .filter(|(path, _)| path.is_file())

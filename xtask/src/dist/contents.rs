@@ -8,7 +8,7 @@ use super::licenses;
 use super::packages;
 use super::target::Target;
 use super::{make_folder, read};
-use crate::step::{Failed, build_program, root, run};
+use crate::step::{Failed, build_native, root, run};
 
 /// Folders of examples.
 const FOLDERS: [&str; 2] = ["robots", "worlds"];
@@ -49,17 +49,10 @@ pub(super) fn gather(source: &Path, target: &Target, program: &Path) -> Result<F
 /// Completions and manual pages, which are equal on all targets. A program that does not run on this machine is
 /// replaced by a build that does.
 fn generated(target: &Target, program: &Path, files: &mut Files) -> Result<(), Failed> {
-    let host =
-        root().join("target/release").join(if cfg!(windows) { "periplus.exe" } else { "periplus" });
-    let runs = if target.is_native() {
-        program
-    } else {
-        build_program()?;
-        &host
-    };
+    let native = if target.is_native() { program.to_path_buf() } else { build_native()? };
     for (shell, path) in SHELLS {
-        let output = Command::new(runs).args(["completions", shell]).output();
-        let output = output.map_err(|error| Failed(format!("{}: {error}", runs.display())))?;
+        let output = Command::new(&native).args(["completions", shell]).output();
+        let output = output.map_err(|error| Failed(format!("{}: {error}", native.display())))?;
         if !output.status.success() || output.stdout.is_empty() {
             return Err(Failed(format!("`periplus completions {shell}` printed no script")));
         }
@@ -74,7 +67,7 @@ fn generated(target: &Target, program: &Path, files: &mut Files) -> Result<(), F
             .map_err(|error| Failed(format!("cannot remove {}: {error}", folder.display())))?;
     }
     make_folder(&folder)?;
-    run(Command::new(runs).arg("man").arg(&folder), "see the error above")?;
+    run(Command::new(&native).arg("man").arg(&folder), "see the error above")?;
     let entries = std::fs::read_dir(&folder)
         .map_err(|error| Failed(format!("cannot read {}: {error}", folder.display())))?;
     for entry in entries.filter_map(Result::ok) {

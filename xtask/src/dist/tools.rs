@@ -25,9 +25,15 @@ pub(super) fn programs() -> Result<PathBuf, Failed> {
         making.args(["-m", "venv"]).arg(folder());
         run(&mut making, "install Python 3.10 or later with its module `venv`")?;
     }
+    // Read without the network, which a later run may not have.
+    let noted = folder().join("installed");
+    if std::fs::read_to_string(&noted).is_ok_and(|text| text == PACKAGES.join("\n")) {
+        return Ok(programs);
+    }
     let mut installing = Command::new(&python);
     installing.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"]);
     run(installing.args(PACKAGES), "see whether PyPI can be reached")?;
+    super::write(&noted, PACKAGES.join("\n").as_bytes())?;
     Ok(programs)
 }
 
@@ -36,4 +42,11 @@ pub(super) fn path() -> Result<std::ffi::OsString, Failed> {
     let old = std::env::var_os("PATH").unwrap_or_default();
     let all = std::iter::once(programs()?).chain(std::env::split_paths(&old));
     std::env::join_paths(all).map_err(|error| Failed(format!("PATH: {error}")))
+}
+
+/// zig as a C compiler and linker.
+pub(crate) fn zig() -> Result<Command, Failed> {
+    let mut command = Command::new(programs()?.join("python"));
+    command.args(["-m", "ziglang"]);
+    Ok(command)
 }

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use super::wine;
 use crate::dist::Target;
 use crate::step::{Failed, root};
 
@@ -34,6 +35,7 @@ impl Runner {
         if target.is_windows() {
             needs("wine", "apt-get install --no-install-recommends wine wine64")?;
             let prefix = root().join("target/platforms/wine");
+            wine::prepare(&prefix).map_err(|Failed(why)| why)?;
             return Ok(Self::Wine { program, prefix });
         }
         if target.triple.starts_with("aarch64") && !target.is_native() {
@@ -93,8 +95,8 @@ impl Runner {
                 command
             }
             Self::Wine { program, prefix } => {
-                let mut command = Command::new("wine");
-                command.arg(program).env("WINEPREFIX", prefix).env("WINEDEBUG", "-all");
+                let mut command = wine::command(prefix);
+                command.arg(program);
                 command
             }
         }
