@@ -31,6 +31,10 @@ pub(crate) struct Options {
     /// Build profile
     #[arg(long, value_enum, default_value_t = Profile::Dist)]
     profile: Profile,
+    /// Program of this machine that prints completions and manual pages where that of the target does not run here, in
+    /// place of a release build
+    #[arg(long, value_name = "FILE")]
+    native: Option<PathBuf>,
     /// Output folder
     #[arg(long, value_name = "DIR", default_value = "target/distribution/out")]
     out: PathBuf,
@@ -77,24 +81,29 @@ pub(crate) fn run(options: &Options) -> Result<(), Failed> {
     }
     for target in chosen {
         timed(&format!("dist: {}", target.triple), || {
-            let archive = archive_of(&root(), target, options.profile, &out)?;
-            if options.twice { twice::compare(target, options.profile, &archive) } else { Ok(()) }
+            let native = options.native.as_ref().map(|program| root().join(program));
+            let sources = Sources { folder: root(), profile: options.profile, native };
+            let archive = archive_of(&sources, target, &out)?;
+            if options.twice { twice::compare(target, &sources, &archive) } else { Ok(()) }
         })?;
     }
     checksums::write_list(&out)
 }
 
-/// Builds the program from the sources in `source` and packs it; returns the archive.
-pub(super) fn archive_of(
-    source: &Path,
-    target: &Target,
+/// Sources of an archive, and how they are built.
+struct Sources {
+    folder: PathBuf,
     profile: Profile,
-    out: &Path,
-) -> Result<PathBuf, Failed> {
-    let program = build::build(source, target, profile)?;
-    let files = contents::gather(source, target, &program)?;
+    /// Program that prints completions and manual pages.
+    native: Option<PathBuf>,
+}
+
+/// Builds the program and packs it; returns the archive.
+fn archive_of(sources: &Sources, target: &Target, out: &Path) -> Result<PathBuf, Failed> {
+    let program = build::build(&sources.folder, target, sources.profile)?;
+    let files = contents::gather(sources, target, &program)?;
     let name = format!("periplus-{}-{}", version(), target.triple);
-    let packed = archive::pack(target.archive, &name, &files, build::source_date(source)?)?;
+    let packed = archive::pack(target.archive, &name, &files, build::source_date(&root())?)?;
     let path = out.join(format!("{name}.{}", target.archive.extension()));
     write(&path, &packed)?;
     let program_bytes = std::fs::metadata(&program).map(|it| it.len()).unwrap_or_default();
@@ -106,7 +115,7 @@ pub(super) fn archive_of(
         files.len()
     );
     let bom = out.join(format!("{name}.cdx.json"));
-    write(&bom, sbom::of(source, target)?.as_bytes())?;
+    write(&bom, sbom::of(&sources.folder, target)?.as_bytes())?;
     Ok(path)
 }
 

@@ -246,7 +246,11 @@ enum Task {
         update: bool,
     },
     /// Check the workflows of releases with actionlint, and test the action `periplus-check`
-    Workflows,
+    Workflows {
+        /// Program for the action, in place of a release build
+        #[arg(long, value_name = "FILE")]
+        program: Option<std::path::PathBuf>,
+    },
     /// Run fuzz targets, starting from the seeds in `fuzz/seeds`
     Fuzz {
         /// Duration of each target [s]
@@ -393,7 +397,7 @@ fn perform(task: &Task) -> Result<(), Failed> {
         Task::Zenoh => zenoh::check(),
         Task::Python { update: true, .. } => python::update(),
         Task::Python { only, .. } => python::check(*only),
-        Task::Workflows => workflows::check(),
+        Task::Workflows { program } => workflows::check(program.as_deref()),
         Task::Fuzz { seconds, targets } => fuzz::run_all(*seconds, targets),
     }
 }

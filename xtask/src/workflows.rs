@@ -1,11 +1,12 @@
 //! `cargo xtask workflows`: the files of GitHub's runners: actionlint, and the tests of the action `periplus-check`.
 
+use std::path::Path;
 use std::process::Command;
 
-use crate::step::{Failed, build_program, root, run};
+use crate::step::{Failed, build_native, root, run};
 
-/// Checks the workflows, and the action with the release program. Missing tools are reported.
-pub(crate) fn check() -> Result<(), Failed> {
+/// Checks the workflows, and the action with a program. Missing tools are reported.
+pub(crate) fn check(program: Option<&Path>) -> Result<(), Failed> {
     if Command::new("actionlint").arg("-version").output().is_ok() {
         run(Command::new("actionlint").current_dir(root()), "see the findings above")?;
         println!("actionlint: no findings");
@@ -13,10 +14,13 @@ pub(crate) fn check() -> Result<(), Failed> {
         let install = "go install github.com/rhysd/actionlint/cmd/actionlint@latest";
         eprintln!("SKIPPED: there is no actionlint: `{install}`");
     }
-    build_program()?;
+    let program = match program {
+        Some(program) => root().join(program),
+        None => build_native()?,
+    };
     let mut tests = Command::new("python3");
     tests.args(["-B", "-m", "unittest"]);
     tests.current_dir(root().join(".github/actions/periplus-check"));
-    tests.env("PERIPLUS_PROGRAM", root().join("target/release/periplus"));
+    tests.env("PERIPLUS_PROGRAM", program);
     run(&mut tests, "see the failures above; it needs Python 3.11")
 }

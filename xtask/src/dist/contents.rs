@@ -7,7 +7,7 @@ use super::archive::{Files, PackedFile};
 use super::licenses;
 use super::packages;
 use super::target::Target;
-use super::{make_folder, read};
+use super::{Sources, make_folder, read};
 use crate::step::{Failed, build_native, root, run};
 
 /// Folders of examples.
@@ -25,7 +25,8 @@ const SHELLS: [(&str, &str); 4] = [
 ];
 
 /// Gathers the files for a target whose program is built.
-pub(super) fn gather(source: &Path, target: &Target, program: &Path) -> Result<Files, Failed> {
+pub(super) fn gather(sources: &Sources, target: &Target, program: &Path) -> Result<Files, Failed> {
+    let source = &sources.folder;
     let mut files = Files::new();
     let packed = PackedFile { bytes: read(program)?, is_executable: true };
     files.insert(target.executable("periplus"), packed);
@@ -42,16 +43,19 @@ pub(super) fn gather(source: &Path, target: &Target, program: &Path) -> Result<F
     files.insert("THIRD-PARTY-LICENSES.txt".to_owned(), PackedFile::data(terms));
     let page = unpacked(&source.join("crates/transports/web/page/licenses.md.br"))?;
     files.insert("THIRD-PARTY-LICENSES-page.md".to_owned(), PackedFile::data(page));
-    generated(target, program, &mut files)?;
+    let native = match &sources.native {
+        _ if target.is_native() => program.to_path_buf(),
+        Some(native) => native.clone(),
+        None => build_native()?,
+    };
+    generated(target, &native, &mut files)?;
     Ok(files)
 }
 
-/// Completions and manual pages, which are equal on all targets. A program that does not run on this machine is
-/// replaced by a build that does.
-fn generated(target: &Target, program: &Path, files: &mut Files) -> Result<(), Failed> {
-    let native = if target.is_native() { program.to_path_buf() } else { build_native()? };
+/// Completions and manual pages by a program that runs on this machine; they are equal on all targets.
+fn generated(target: &Target, native: &Path, files: &mut Files) -> Result<(), Failed> {
     for (shell, path) in SHELLS {
-        let output = Command::new(&native).args(["completions", shell]).output();
+        let output = Command::new(native).args(["completions", shell]).output();
         let output = output.map_err(|error| Failed(format!("{}: {error}", native.display())))?;
         if !output.status.success() || output.stdout.is_empty() {
             return Err(Failed(format!("`periplus completions {shell}` printed no script")));
@@ -67,7 +71,7 @@ fn generated(target: &Target, program: &Path, files: &mut Files) -> Result<(), F
             .map_err(|error| Failed(format!("cannot remove {}: {error}", folder.display())))?;
     }
     make_folder(&folder)?;
-    run(Command::new(&native).arg("man").arg(&folder), "see the error above")?;
+    run(Command::new(native).arg("man").arg(&folder), "see the error above")?;
     let entries = std::fs::read_dir(&folder)
         .map_err(|error| Failed(format!("cannot read {}: {error}", folder.display())))?;
     for entry in entries.filter_map(Result::ok) {

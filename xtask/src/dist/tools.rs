@@ -1,4 +1,4 @@
-//! Tools of a release that come from PyPI, in an environment of their own.
+//! Tools of a release that come from PyPI, in a separate environment.
 
 use std::path::PathBuf;
 use std::process::Command;

@@ -3,24 +3,27 @@
 use std::path::Path;
 use std::process::Command;
 
-use super::build::Profile;
 use super::target::Target;
-use super::{archive_of, checksums, make_folder, read};
+use super::{Sources, archive_of, checksums, make_folder, read};
 use crate::step::{Failed, root};
 
 /// Builds the archive of a target from a copy of the tracked files, without anything that was built before, and
 /// compares it.
-pub(super) fn compare(target: &Target, profile: Profile, first: &Path) -> Result<(), Failed> {
+pub(super) fn compare(target: &Target, sources: &Sources, first: &Path) -> Result<(), Failed> {
     let folder = root().join("target/distribution/second");
     let failed = |error: std::io::Error| Failed(format!("{}: {error}", folder.display()));
     if folder.exists() {
         std::fs::remove_dir_all(&folder).map_err(failed)?;
     }
-    let source = folder.join("sources");
-    copy_tracked(&source)?;
+    let copy = Sources {
+        folder: folder.join("sources"),
+        profile: sources.profile,
+        native: sources.native.clone(),
+    };
+    copy_tracked(&copy.folder)?;
     let out = folder.join("out");
     make_folder(&out)?;
-    let second = archive_of(&source, target, profile, &out)?;
+    let second = archive_of(&copy, target, &out)?;
     let (one, other) = (read(first)?, read(&second)?);
     if one != other {
         let at = one.iter().zip(&other).take_while(|(a, b)| a == b).count();

@@ -123,7 +123,7 @@ impl Runner {
     }
 }
 
-/// Changes the root folder; without being root in a namespace of its own.
+/// Changes the root folder; without being root in a new namespace.
 fn chroot(folder: &Path) -> Command {
     let mut command = Command::new("unshare");
     command.args(["--map-root-user", "chroot"]).arg(folder);

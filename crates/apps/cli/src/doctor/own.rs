@@ -39,7 +39,7 @@ struct SelfCheck {
     status: CheckStatus,
     /// Text of what was found.
     found: String,
-    /// What to do; empty if nothing.
+    /// Advice; empty if nothing is to do.
     advice: String,
 }
 
