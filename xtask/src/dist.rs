@@ -41,6 +41,9 @@ pub(crate) struct Options {
     /// Build the archives a second time from a copy of the sources in another folder, and compare the bytes
     #[arg(long)]
     twice: bool,
+    /// Write the bills of materials and the licences of all libraries only, without building
+    #[arg(long, conflicts_with_all = ["twice", "wheels", "npm"])]
+    texts: bool,
     /// Build Python wheels instead of archives
     #[arg(long, conflicts_with_all = ["twice", "npm"])]
     wheels: bool,
@@ -79,6 +82,15 @@ pub(crate) fn run(options: &Options) -> Result<(), Failed> {
         }
         return checksums::write_list(&out);
     }
+    if options.texts {
+        for target in chosen {
+            let name = format!("periplus-{}-{}", version(), target.triple);
+            let terms = contents::terms(&root(), target)?;
+            write(&out.join(format!("{name}-licenses.txt")), terms.as_bytes())?;
+            write_bill(&root(), target, &out)?;
+        }
+        return checksums::write_list(&out);
+    }
     for target in chosen {
         timed(&format!("dist: {}", target.triple), || {
             let native = options.native.as_ref().map(|program| root().join(program));
@@ -114,9 +126,13 @@ fn archive_of(sources: &Sources, target: &Target, out: &Path) -> Result<PathBuf,
         packed.len() as f64 * 1e-6,
         files.len()
     );
-    let bom = out.join(format!("{name}.cdx.json"));
-    write(&bom, sbom::of(&sources.folder, target)?.as_bytes())?;
+    write_bill(&sources.folder, target, out)?;
     Ok(path)
+}
+
+fn write_bill(source: &Path, target: &Target, out: &Path) -> Result<(), Failed> {
+    let path = out.join(format!("periplus-{}-{}.cdx.json", version(), target.triple));
+    write(&path, sbom::of(source, target)?.as_bytes())
 }
 
 /// Version of the workspace, which is that of this tool.

@@ -24,3 +24,9 @@ pub(crate) fn check(program: Option<&Path>) -> Result<(), Failed> {
     tests.env("PERIPLUS_PROGRAM", program);
     run(&mut tests, "see the failures above; it needs Python 3.11")
 }
+
+#[test]
+fn the_recipe_of_conda_has_the_version_of_the_workspace() {
+    let recipe = include_str!("../../packaging/conda/recipe.yaml");
+    assert!(recipe.contains(concat!("\n  version: ", env!("CARGO_PKG_VERSION"), "\n")));
+}

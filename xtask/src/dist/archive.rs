@@ -166,7 +166,8 @@ mod tests {
     fn a_zip_has_sorted_files_with_one_time() {
         let packed = pack(ArchiveFormat::Zip, "p", &files(), 951_782_400).unwrap();
         let mut archive = zip::ZipArchive::new(Cursor::new(packed)).unwrap();
-        assert_eq!(archive.file_names().collect::<Vec<_>>(), ["p/a/periplus", "p/b.txt"]);
+        let names: Vec<_> = archive.file_names().map(Result::unwrap).collect();
+        assert_eq!(names, ["p/a/periplus", "p/b.txt"]);
         let program = archive.by_name("p/a/periplus").unwrap();
         assert_eq!(program.unix_mode().map(|mode| mode & 0o777), Some(0o755));
         let time = program.last_modified().unwrap();

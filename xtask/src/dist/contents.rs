@@ -37,10 +37,8 @@ pub(super) fn gather(sources: &Sources, target: &Target, program: &Path) -> Resu
         let file = PackedFile::data(read(&source.join(&name))?);
         files.insert(name, file);
     }
-    let packages = packages::of(source, "periplus-cli", target)?;
-    let apache = String::from_utf8_lossy(&read(&source.join("LICENSE"))?).into_owned();
-    let terms = licenses::text(&packages, &apache)?;
-    files.insert("THIRD-PARTY-LICENSES.txt".to_owned(), PackedFile::data(terms));
+    let terms = PackedFile::data(terms(source, target)?);
+    files.insert("THIRD-PARTY-LICENSES.txt".to_owned(), terms);
     let page = unpacked(&source.join("crates/transports/web/page/licenses.md.br"))?;
     files.insert("THIRD-PARTY-LICENSES-page.md".to_owned(), PackedFile::data(page));
     let native = match &sources.native {
@@ -50,6 +48,13 @@ pub(super) fn gather(sources: &Sources, target: &Target, program: &Path) -> Resu
     };
     generated(target, &native, &mut files)?;
     Ok(files)
+}
+
+/// Terms of all libraries in the program.
+pub(super) fn terms(source: &Path, target: &Target) -> Result<String, Failed> {
+    let packages = packages::of(source, "periplus-cli", target)?;
+    let apache = String::from_utf8_lossy(&read(&source.join("LICENSE"))?).into_owned();
+    licenses::text(&packages, &apache)
 }
 
 /// Completions and manual pages by a program that runs on this machine; they are equal on all targets.

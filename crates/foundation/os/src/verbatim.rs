@@ -24,7 +24,7 @@ mod tests {
 
     #[test]
     fn drives_and_shares_lose_the_prefix() {
-        let of = |path| without_prefix(path);
+        let of = without_prefix;
         assert_eq!(of(r"\\?\C:\robots\a.urdf").as_deref(), Some(r"C:\robots\a.urdf"));
         assert_eq!(of(r"\\?\UNC\server\maps").as_deref(), Some(r"\\server\maps"));
         assert_eq!(of(r"\\?\Volume{1}\a"), None);
