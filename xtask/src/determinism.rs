@@ -1,10 +1,11 @@
-//! The same run, built twice and on different numbers of threads: the bags must be the same, byte
-//! for byte.
+//! The same run, built twice, on different numbers of threads, and on the platforms whose programs are built: the bags
+//! must be the same, byte for byte.
 
 use std::fs;
-use std::path::Path;
+use std::process::Command;
 
-use crate::step::{Failed, cargo, run};
+use crate::platforms;
+use crate::step::{Failed, cargo, root, run};
 
 /// A robot with lidar, camera and IMU in a room; short, for debug builds are slow.
 const RUN: [&str; 11] = [
@@ -26,38 +27,58 @@ const BUILDS: [&[&str]; 2] = [&[], &["--release"]];
 
 const THREADS: [&str; 3] = ["1", "2", "8"];
 
+/// Recording, as the program gets it: the same name for all runs, since the bag contains it.
+const RECORDING: &str = "target/determinism/run.mcap";
+
 /// Runs it every way and compares.
 pub(crate) fn check() -> Result<(), Failed> {
-    let folder = crate::step::root().join("target/determinism");
+    let folder = root().join("target/determinism");
     fs::create_dir_all(&folder).map_err(|error| Failed(format!("target/determinism: {error}")))?;
-    let mut first: Option<(String, Vec<u8>)> = None;
+    let mut first = None;
     for build in BUILDS {
         for threads in THREADS {
-            let name =
-                format!("{}-{threads}-threads", if build.is_empty() { "debug" } else { "release" });
-            let bag = bag_of(&folder, build, threads)?;
-            match &first {
-                None => {
-                    println!("{name}: {} bytes", bag.len());
-                    first = Some((name, bag));
-                }
-                Some((of, same)) if *same == bag => println!("{name}: the same as {of}"),
-                Some((of, other)) => {
-                    let place = bag.iter().zip(other).take_while(|(a, b)| a == b).count();
-                    return Err(Failed(format!("{name} differs from {of} at byte {place}")));
-                }
-            }
+            let kind = if build.is_empty() { "debug" } else { "release" };
+            let mut command = cargo();
+            command.arg("run").arg("--quiet").args(build).arg("--");
+            compare(&mut first, format!("{kind}-{threads}-threads"), &mut command, threads)?;
+        }
+    }
+    for (target, runner) in platforms::built() {
+        let name = format!("{} by {}", target.triple, runner.name());
+        compare(&mut first, name, &mut runner.command(), "2")?;
+    }
+    Ok(())
+}
+
+/// Compares the bag of a command with the first one.
+fn compare(
+    first: &mut Option<(String, Vec<u8>)>,
+    name: String,
+    command: &mut Command,
+    threads: &str,
+) -> Result<(), Failed> {
+    let bag = bag_of(command, threads)?;
+    match first {
+        None => {
+            println!("{name}: {} bytes", bag.len());
+            *first = Some((name, bag));
+        }
+        Some((of, same)) if *same == bag => println!("{name}: the same as {of}"),
+        Some((of, other)) => {
+            let place = bag.iter().zip(other.iter()).take_while(|(a, b)| a == b).count();
+            return Err(Failed(format!("{name} differs from {of} at byte {place}")));
         }
     }
     Ok(())
 }
 
-fn bag_of(folder: &Path, build: &[&str], threads: &str) -> Result<Vec<u8>, Failed> {
-    // The same name for all runs, since the bag contains it.
-    let path = folder.join("run.mcap");
-    let mut command = cargo();
-    command.arg("run").arg("--quiet").args(build).arg("--").args(RUN);
-    command.args(["--threads", threads, "--record"]).arg(&path);
-    run(&mut command, "the run itself failed")?;
-    fs::read(&path).map_err(|error| Failed(format!("{}: {error}", path.display())))
+fn bag_of(command: &mut Command, threads: &str) -> Result<Vec<u8>, Failed> {
+    let path = root().join(RECORDING);
+    // So that a run that writes nothing is not taken for the one before.
+    if path.exists() {
+        fs::remove_file(&path).map_err(|error| Failed(format!("{RECORDING}: {error}")))?;
+    }
+    command.args(RUN).args(["--threads", threads, "--record", RECORDING]).current_dir(root());
+    run(command, "the run itself failed")?;
+    fs::read(&path).map_err(|error| Failed(format!("{RECORDING}: {error}")))
 }

@@ -13,6 +13,7 @@ mod codegen;
 mod corpus;
 mod costmap;
 mod determinism;
+mod dist;
 mod docs;
 mod drive;
 mod fuzz;
@@ -23,6 +24,7 @@ mod package;
 mod parallel;
 mod physics;
 mod pictures;
+mod platforms;
 mod python;
 mod rays;
 mod ros2;
@@ -37,6 +39,7 @@ mod tutorials;
 mod viewer;
 mod wasm;
 mod wire;
+mod workflows;
 mod zenoh;
 
 use std::process::ExitCode;
@@ -188,8 +191,15 @@ enum Task {
         #[arg(long, default_value_t = 2)]
         jobs: usize,
     },
-    /// Compare the bags of different builds and numbers of threads
+    /// Compare the bags of different builds and numbers of threads, and of every platform whose program is built by
+    /// `dist` and runs on this machine
     Determinism,
+    /// Build the files of a release: archives with programs, wheels, the package for npm, bills of materials,
+    /// checksums. zig links for every system; it comes from PyPI
+    Dist(dist::Options),
+    /// Run the programs that `dist` built as on their systems, and compare their files with those of this machine: arm64
+    /// by QEMU, Windows by Wine, musl without any other file
+    Platforms(platforms::Options),
     /// Run all commands on hostile inputs, generated from a fixed seed: crashes, time-outs over 10 s and memory
     /// over 500 MB are faults
     Attack {
@@ -237,6 +247,12 @@ enum Task {
         /// Write the reference page and the types of the messages instead
         #[arg(long, conflicts_with = "only")]
         update: bool,
+    },
+    /// Check the workflows of releases with actionlint, and test the action `periplus-check`
+    Workflows {
+        /// Program for the action, in place of a release build
+        #[arg(long, value_name = "FILE")]
+        program: Option<std::path::PathBuf>,
     },
     /// Run fuzz targets, starting from the seeds in `fuzz/seeds`
     Fuzz {
@@ -374,6 +390,8 @@ fn perform(task: &Task) -> Result<(), Failed> {
             goals::evaluate(&goals::Plan { goals: *goals, only: only.clone(), jobs: *jobs })
         }
         Task::Determinism => determinism::check(),
+        Task::Dist(options) => dist::run(options),
+        Task::Platforms(options) => platforms::run(options),
         Task::Pictures => pictures::draw(),
         Task::Viewer(Page::Build) => viewer::build(),
         Task::Viewer(Page::Check) => viewer::check(),
@@ -383,6 +401,7 @@ fn perform(task: &Task) -> Result<(), Failed> {
         Task::Zenoh => zenoh::check(),
         Task::Python { update: true, .. } => python::update(),
         Task::Python { only, .. } => python::check(*only),
+        Task::Workflows { program } => workflows::check(program.as_deref()),
         Task::Fuzz { seconds, targets } => fuzz::run_all(*seconds, targets),
     }
 }

@@ -62,6 +62,15 @@ pub(crate) fn build_program() -> Result<(), Failed> {
     run(cargo().args(["build", "--quiet", "--release"]).args(packages), "see the errors above")
 }
 
+/// Builds the release program alone, as everyone does; returns its path.
+///
+/// # Errors
+/// When it cannot be built.
+pub(crate) fn build_native() -> Result<PathBuf, Failed> {
+    run(cargo().args(["build", "--quiet", "--release", "--package", "periplus-cli"]), "see above")?;
+    Ok(root().join("target/release").join(format!("periplus{}", std::env::consts::EXE_SUFFIX)))
+}
+
 /// The command as one would type it.
 fn shown(command: &Command) -> String {
     let program = Path::new(command.get_program()).file_name().unwrap_or_default();

@@ -2,6 +2,7 @@
 
 mod files;
 mod network_test;
+mod own;
 
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -30,6 +31,10 @@ use crate::verbs::{Common, seconds, with_session};
 pub(crate) struct DoctorOptions {
     #[command(subcommand)]
     command: Option<DoctorCommand>,
+    /// Check this program and this machine instead: version, target, page, memory, network, Python;
+    /// exit code 1: an error
+    #[arg(long = "self", conflicts_with_all = ["words", "time", "robot"])]
+    own: bool,
     /// World, robot, launch file or parameter file to examine, in place of the running system
     #[arg(value_name = "FILE|NAME:=VALUE")]
     words: Vec<String>,
@@ -52,6 +57,9 @@ enum DoctorCommand {
 pub(crate) fn run(options: &DoctorOptions) -> Result<ExitCode, CliError> {
     if let Some(DoctorCommand::Costmap(options)) = &options.command {
         return crate::costmap::doctor::run(options);
+    }
+    if options.own {
+        return own::run(options.common.json);
     }
     if !options.words.is_empty() || !options.robots.others.is_empty() {
         return files::run(options);

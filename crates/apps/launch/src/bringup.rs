@@ -20,6 +20,8 @@ mod parameters;
 mod parts;
 mod preparation;
 mod preview;
+#[cfg(any(windows, test))]
+mod process_tree;
 mod processes;
 mod python;
 mod report;

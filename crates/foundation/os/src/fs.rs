@@ -9,11 +9,22 @@ mod system {
         reason = "the edge through which all other code reads files"
     )]
 
+    #[cfg(not(windows))]
+    pub use std::fs::canonicalize;
     pub use std::fs::{
-        File, canonicalize, create_dir_all, metadata, read, read_dir, remove_dir_all, remove_file,
-        rename, write,
+        File, create_dir_all, metadata, read, read_dir, remove_dir_all, remove_file, rename, write,
     };
     use std::path::{Path, PathBuf};
+
+    /// Returns the absolute path without links, as users write it.
+    ///
+    /// # Errors
+    /// When there is no such entry.
+    #[cfg(windows)]
+    pub fn canonicalize(path: impl AsRef<Path>) -> std::io::Result<PathBuf> {
+        let path = std::fs::canonicalize(path)?;
+        Ok(path.to_str().and_then(crate::verbatim::without_prefix).map_or(path, PathBuf::from))
+    }
 
     /// Returns true if an entry exists at the path.
     #[must_use]

@@ -34,6 +34,8 @@ mod overlay;
 mod process;
 mod shell;
 mod stopwatch;
+#[cfg(any(windows, test))]
+mod verbatim;
 
 pub use file_log::{FileLog, plain};
 pub use machine::Machine;

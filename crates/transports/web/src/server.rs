@@ -20,4 +20,5 @@ mod token_rate_limit;
 pub use authorization::{AdmissionError, Authorization};
 pub use connection::bounded_http;
 pub use listener::{WebServer, WebServerSettings};
+pub use page::embedded_page;
 pub use token::{MIN_TOKEN_CHARACTERS, TokenError, token};

@@ -35,7 +35,7 @@ pub(super) fn look() -> NetworkSettings {
 }
 
 /// Returns true if a multicast packet loops back; `None` when no socket can be opened.
-fn comes_back() -> Option<bool> {
+pub(super) fn comes_back() -> Option<bool> {
     let socket = UdpSocket::bind((Ipv4Addr::UNSPECIFIED, 0)).ok()?;
     socket.set_read_timeout(Some(LOOPBACK_TIMEOUT)).ok()?;
     let SocketAddr::V4(own) = socket.local_addr().ok()? else { return None };

@@ -66,6 +66,7 @@ pub(super) const EXAMPLES: &[(&str, &[Example])] = &[
         ("periplus doctor", "Diagnose the running ROS 2 system"),
         ("periplus doctor worlds/house.sdf --robot robot.urdf.xacro", "Simulate for two seconds and examine"),
         ("periplus doctor nav2_params.yaml", "Examine a parameter file"),
+        ("periplus doctor --self", "Check this program and this machine"),
     ]),
     ("doctor costmap", &[("periplus doctor costmap nav2_params.yaml", "Examine the costmaps of a file")]),
     ("interface list", &[("periplus interface list -m", "All messages")]),

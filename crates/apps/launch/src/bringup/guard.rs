@@ -73,10 +73,17 @@ fn start(words: &[String]) -> Option<(Child, ChildStdin)> {
         .stdout(Stdio::null())
         .stderr(Stdio::null());
     own_group(&mut command);
+    // Ctrl-C in the terminal must not end the guard.
+    #[cfg(windows)]
+    std::os::windows::process::CommandExt::creation_flags(&mut command, CREATE_NEW_PROCESS_GROUP);
     let mut process = command.spawn().ok()?;
     let pipe = process.stdin.take()?;
     Some((process, pipe))
 }
+
+/// Flag of `CreateProcess`.
+#[cfg(windows)]
+const CREATE_NEW_PROCESS_GROUP: u32 = 0x200;
 
 /// Argument that makes the program a guard. Not a command for users.
 pub const GUARD_VERB: &str = "__guard";
@@ -151,12 +158,24 @@ fn group_id(group: u32) -> Option<rustix::process::Pid> {
     i32::try_from(group).ok().filter(|group| *group > 1).and_then(rustix::process::Pid::from_raw)
 }
 
-/// Other systems have no process groups: only the leader is known, and ends with its handle.
-#[cfg(not(unix))]
+/// Sends a signal to a process and its children, as far as the system has it.
+#[cfg(windows)]
+pub(crate) fn send(process: u32, ending: EndSignal) {
+    super::process_tree::end(process, ending);
+}
+
+/// Returns true if a process runs.
+#[cfg(windows)]
+pub(crate) fn has_members(process: u32) -> bool {
+    super::process_tree::runs(process)
+}
+
+/// Other systems have no processes.
+#[cfg(not(any(unix, windows)))]
 pub(crate) fn send(_group: u32, _ending: EndSignal) {}
 
-/// Returns true if a process of a group is left.
-#[cfg(not(unix))]
+/// Other systems have no processes.
+#[cfg(not(any(unix, windows)))]
 pub(crate) fn has_members(_group: u32) -> bool {
     false
 }

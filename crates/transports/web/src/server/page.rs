@@ -17,6 +17,12 @@ use crate::server::http::{Answer, empty, lists, plain_text, values};
 /// without that suffix.
 const FILES: &[(&str, &[u8])] = include!(concat!(env!("OUT_DIR"), "/page.rs"));
 
+/// Returns the number of files of the page in this program, and their size \[bytes\].
+#[must_use]
+pub fn embedded_page() -> (usize, usize) {
+    (FILES.len(), FILES.iter().map(|(_, bytes)| bytes.len()).sum())
+}
+
 /// Page shown if the viewer was not built.
 const UNBUILT: &str = "<!doctype html><meta charset=utf-8><title>Periplus</title>\
     <body style=\"font:16px/1.5 system-ui;max-width:40em;margin:4em auto;padding:0 1em\">\
