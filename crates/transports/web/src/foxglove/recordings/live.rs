@@ -10,6 +10,9 @@ use periplus_transport::unix_ns;
 
 use super::service::RecordingSettings;
 
+/// Types that fill the memory of a tab, in which recordings are kept in WebAssembly, within a minute.
+const LARGE: [&str; 2] = ["sensor_msgs/msg/Image", "sensor_msgs/msg/PointCloud2"];
+
 /// A recording of the graph in progress.
 pub(super) struct LiveRecording {
     pub(super) path: PathBuf,
@@ -26,7 +29,10 @@ impl LiveRecording {
             ..WriteSettings::new(Storage::Mcap)
         };
         let settings = RecordSettings {
-            wanted: Box::new(|topic: &TopicInfo| !is_hidden(&topic.name)),
+            wanted: Box::new(|topic: &TopicInfo| {
+                let is_kept = !cfg!(target_family = "wasm") || !LARGE.contains(&&*topic.type_name);
+                is_kept && !is_hidden(&topic.name)
+            }),
             ..RecordSettings::all(write)
         };
         let recorder = Recorder::start(graph, &path, settings)?;
