@@ -13,7 +13,7 @@ use crate::unpack::UnpackError;
 /// Reason for which a call has no answer.
 #[derive(Debug)]
 #[non_exhaustive]
-pub enum CallError {
+pub enum TabCallError {
     /// The call is not valid JSON, or has unknown names.
     Invalid(serde_json::Error),
     /// Another call must precede this one.
@@ -34,7 +34,7 @@ pub enum CallError {
     Output(io::Error),
 }
 
-impl fmt::Display for CallError {
+impl fmt::Display for TabCallError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Invalid(error) => write!(f, "the call is not valid: {error}"),
@@ -55,7 +55,7 @@ impl fmt::Display for CallError {
     }
 }
 
-impl std::error::Error for CallError {
+impl std::error::Error for TabCallError {
     fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
         match self {
             Self::Invalid(error) => Some(error),
@@ -68,7 +68,7 @@ impl std::error::Error for CallError {
     }
 }
 
-impl From<LogMappingError> for CallError {
+impl From<LogMappingError> for TabCallError {
     fn from(error: LogMappingError) -> Self {
         Self::Mapping(error)
     }

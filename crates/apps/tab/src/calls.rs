@@ -11,7 +11,7 @@ use periplus_session::terminal;
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-use crate::call_error::CallError;
+use crate::call_error::TabCallError;
 use crate::log_mapping::{LogMappingOptions, LogMappingTask};
 use crate::tab::Tab;
 use crate::unpack;
@@ -94,11 +94,11 @@ impl TabCalls {
     ///
     /// # Errors
     /// The reason.
-    pub fn answer(&mut self, call: &[u8], tab: Option<&mut Tab>) -> Result<Vec<u8>, CallError> {
-        self.execute(serde_json::from_slice(call).map_err(CallError::Invalid)?, tab)
+    pub fn answer(&mut self, call: &[u8], tab: Option<&mut Tab>) -> Result<Vec<u8>, TabCallError> {
+        self.execute(serde_json::from_slice(call).map_err(TabCallError::Invalid)?, tab)
     }
 
-    fn execute(&mut self, call: TabCall, tab: Option<&mut Tab>) -> Result<Vec<u8>, CallError> {
+    fn execute(&mut self, call: TabCall, tab: Option<&mut Tab>) -> Result<Vec<u8>, TabCallError> {
         let answer = match call {
             TabCall::Check(options) => check(&options)?,
             TabCall::Unpack(options) => unpacked(&options)?,
@@ -119,16 +119,19 @@ impl TabCalls {
                 json!({})
             }
             TabCall::WriteResults(NoOptions {}) => {
-                let tab = tab.ok_or(CallError::NotReady("there is no session; open one first"))?;
-                json!({ "folder": tab.write_results().map_err(CallError::Results)? })
+                let tab =
+                    tab.ok_or(TabCallError::NotReady("there is no session; open one first"))?;
+                json!({ "folder": tab.write_results().map_err(TabCallError::Results)? })
             }
             TabCall::Messages(NoOptions {}) => json!({ "text": take_messages() }),
         };
-        serde_json::to_vec(&answer).map_err(CallError::Invalid)
+        serde_json::to_vec(&answer).map_err(TabCallError::Invalid)
     }
 
-    fn mapping(&mut self) -> Result<&mut LogMappingTask, CallError> {
-        self.mapping.as_mut().ok_or(CallError::NotReady("no log is mapped; `map_open` starts it"))
+    fn mapping(&mut self) -> Result<&mut LogMappingTask, TabCallError> {
+        self.mapping
+            .as_mut()
+            .ok_or(TabCallError::NotReady("no log is mapped; `map_open` starts it"))
     }
 }
 
@@ -146,9 +149,9 @@ pub(crate) fn with_messages(why: &str) -> String {
     if messages.is_empty() { why.to_owned() } else { format!("{messages}{why}") }
 }
 
-fn check(options: &CheckOptions) -> Result<Value, CallError> {
+fn check(options: &CheckOptions) -> Result<Value, TabCallError> {
     if options.files.is_empty() {
-        return Err(CallError::Argument("no file to check: give `files`".to_owned()));
+        return Err(TabCallError::Argument("no file to check: give `files`".to_owned()));
     }
     let arguments: Vec<(String, String)> =
         options.arguments.iter().map(|(name, value)| (name.clone(), value.clone())).collect();
@@ -159,7 +162,7 @@ fn check(options: &CheckOptions) -> Result<Value, CallError> {
         });
     let mut text = Vec::new();
     for file in &checked {
-        file.write_text(&mut text, false).map_err(CallError::Output)?;
+        file.write_text(&mut text, false).map_err(TabCallError::Output)?;
     }
     let is_ok = !checked.iter().any(|file| file.is_bad(options.strict));
     let files: Vec<Value> = checked.iter().map(CheckedFile::to_json).collect();
@@ -167,11 +170,11 @@ fn check(options: &CheckOptions) -> Result<Value, CallError> {
     Ok(json!({ "report": report(&files, is_ok), "text": text }))
 }
 
-fn unpacked(options: &UnpackOptions) -> Result<Value, CallError> {
+fn unpacked(options: &UnpackOptions) -> Result<Value, TabCallError> {
     let path = &options.archive;
-    let archive = fs::read(path).map_err(|error| CallError::File(path.clone(), error))?;
+    let archive = fs::read(path).map_err(|error| TabCallError::File(path.clone(), error))?;
     let contents =
-        unpack::read(&archive).map_err(|error| CallError::Archive(path.clone(), error))?;
+        unpack::read(&archive).map_err(|error| TabCallError::Archive(path.clone(), error))?;
     let mut files = Vec::new();
     let bytes: usize = contents.files.iter().map(|(_, content)| content.len()).sum();
     for (name, content) in contents.files {
@@ -179,7 +182,7 @@ fn unpacked(options: &UnpackOptions) -> Result<Value, CallError> {
         let folder = target.parent().unwrap_or(Path::new("/"));
         fs::create_dir_all(folder)
             .and_then(|()| fs::write(&target, content))
-            .map_err(|error| CallError::File(target.clone(), error))?;
+            .map_err(|error| TabCallError::File(target.clone(), error))?;
         files.push(target);
     }
     Ok(json!({ "files": files, "bytes": bytes, "left_out": contents.left_out }))

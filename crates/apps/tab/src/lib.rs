@@ -16,6 +16,6 @@ mod run;
 mod tab;
 pub mod unpack;
 
-pub use call_error::CallError;
+pub use call_error::TabCallError;
 pub use options::{DemoOptions, RunOptions, TabOptions};
 pub use tab::{Tab, TabError, TabFrame};

@@ -9,7 +9,7 @@ use periplus_session::scan_log::LogSelection;
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-use crate::call_error::CallError;
+use crate::call_error::TabCallError;
 
 /// Largest log. It is in memory as a file and again as scans, beside the map, and a module of 32 bits has 4 GiB.
 const MAX_LOG_BYTES: u64 = 1 << 30;
@@ -67,7 +67,7 @@ pub struct LogMappingOptions {
 }
 
 impl LogMappingOptions {
-    fn request(self) -> Result<LogMappingRequest, CallError> {
+    fn request(self) -> Result<LogMappingRequest, TabCallError> {
         let usual = LogSelection::default();
         Ok(LogMappingRequest {
             log: self.log,
@@ -83,7 +83,7 @@ impl LogMappingOptions {
                 .method
                 .map(|name| name.parse())
                 .transpose()
-                .map_err(CallError::Argument)?,
+                .map_err(TabCallError::Argument)?,
             parameters: self.parameters,
             params_file: self.params_file,
             seed: self.seed,
@@ -130,15 +130,15 @@ impl LogMappingTask {
     ///
     /// # Errors
     /// When the log is too large, or cannot be read.
-    pub fn open(options: LogMappingOptions) -> Result<Self, CallError> {
+    pub fn open(options: LogMappingOptions) -> Result<Self, TabCallError> {
         let bytes = size(&options.log);
         if bytes > MAX_LOG_BYTES {
-            return Err(CallError::TooLarge(options.log, bytes >> 20, MAX_LOG_BYTES >> 20));
+            return Err(TabCallError::TooLarge(options.log, bytes >> 20, MAX_LOG_BYTES >> 20));
         }
         for file in [&options.session_out, &options.g2o_out].into_iter().flatten() {
             let folder = file.parent().unwrap_or(Path::new("/"));
             fs::create_dir_all(folder)
-                .map_err(|error| CallError::File(folder.to_owned(), error))?;
+                .map_err(|error| TabCallError::File(folder.to_owned(), error))?;
         }
         let mapping = LogMapping::open(options.request()?)?;
         Ok(Self { mapping, phase: Phase::Mapping })
@@ -149,7 +149,7 @@ impl LogMappingTask {
     ///
     /// # Errors
     /// When the log can no longer be read.
-    pub fn step(&mut self, budget: Duration) -> Result<Value, CallError> {
+    pub fn step(&mut self, budget: Duration) -> Result<Value, TabCallError> {
         let watch = Stopwatch::start();
         while self.phase != Phase::Complete {
             let (done, total) = self.mapping.position();
@@ -189,8 +189,8 @@ impl LogMappingTask {
     ///
     /// # Errors
     /// When there is no map yet, or it is too large to draw.
-    pub fn preview(&self) -> Result<Vec<u8>, CallError> {
-        self.mapping.preview().ok_or(CallError::NotReady("there is no map to draw yet"))
+    pub fn preview(&self) -> Result<Vec<u8>, TabCallError> {
+        self.mapping.preview().ok_or(TabCallError::NotReady("there is no map to draw yet"))
     }
 
     /// Writes the results, and returns the report: its JSON, its text, faults of the log, and why the map must not
@@ -198,16 +198,16 @@ impl LogMappingTask {
     ///
     /// # Errors
     /// When the map is not complete, or a file cannot be written.
-    pub fn write(&self) -> Result<Value, CallError> {
+    pub fn write(&self) -> Result<Value, TabCallError> {
         if self.phase != Phase::Complete {
-            return Err(CallError::NotReady(
+            return Err(TabCallError::NotReady(
                 "the map is not complete; step until the phase is `complete`",
             ));
         }
         let report = self.mapping.report();
         self.mapping.write(&report)?;
         let mut text = Vec::new();
-        report.write_text(&mut text, true).map_err(CallError::Output)?;
+        report.write_text(&mut text, true).map_err(TabCallError::Output)?;
         let faults = self.mapping.faults();
         Ok(json!({
             "report": report.to_json(),
