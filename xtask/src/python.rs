@@ -10,7 +10,7 @@ use crate::step::{Failed, build_program, root, run, timed};
 const FOLDER: &str = "target/python";
 
 /// Programs that build the wheel and test it.
-const TOOLS: [&str; 18] = [
+const TOOLS: [&str; 19] = [
     "maturin>=1.9,<2",
     "numpy",
     "pytest",

@@ -50,21 +50,21 @@ pub(crate) fn check() -> Result<(), Failed> {
     )
 }
 
-fn module() -> Result<(), Failed> {
+fn build_module() -> Result<(), Failed> {
     let words = ["build", "--quiet", "--profile", "wasm", "--target", TARGET];
     run(cargo().args(words).args(["-p", "periplus-tab"]), "see the errors above")
 }
 
 /// Builds the page without a server into `target/tab/page`: static files, each beside its copy with Brotli.
 pub(crate) fn page() -> Result<(), Failed> {
-    timed("wasm: module", module)?;
+    timed("wasm: module", build_module)?;
     timed("wasm: page", crate::viewer::build_tab)
 }
 
 /// Builds the module, and compares the demo in it with that of the native program for some simulated seconds.
 pub(crate) fn all(seconds: u32) -> Result<(), Failed> {
     timed("wasm: crates", check)?;
-    timed("wasm: module", module)?;
+    timed("wasm: module", build_module)?;
     if Command::new("node").arg("--version").output().is_err() {
         println!("SKIPPED: no node to run the module with; it needs Node 20 or newer");
         return Ok(());

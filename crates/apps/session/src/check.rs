@@ -163,7 +163,7 @@ fn findings_of_nodes(file: &Path, loaded: &mut LoadedFile) -> Vec<(Diagnostics, 
     match examine_parameters(file) {
         Ok(found) => found,
         Err(why) => {
-            loaded.diagnostics.push(Diagnostic::error("bad-parameters", why));
+            loaded.diagnostics.push(Diagnostic::error("bad-parameters", why.to_string()));
             Vec::new()
         }
     }

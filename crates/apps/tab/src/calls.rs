@@ -11,6 +11,7 @@ use periplus_session::terminal;
 use serde::Deserialize;
 use serde_json::{Value, json};
 
+use crate::call_error::TabCallError;
 use crate::log_mapping::{LogMappingOptions, LogMappingTask};
 use crate::tab::Tab;
 use crate::unpack;
@@ -21,7 +22,7 @@ const MAX_SLICE_MS: f64 = 10_000.0;
 /// A function with its arguments, such as `{"check": {"files": ["/files/robot.urdf"]}}`.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum Call {
+pub enum TabCall {
     /// Checks files. Answer: `report`, as `periplus check --json` prints it, and `text`, as it prints without.
     Check(CheckOptions),
     /// Unpacks an archive. Answer: `files`, `bytes`, and `left_out` with the reasons.
@@ -84,52 +85,53 @@ pub struct StepOptions {
 
 /// State between calls.
 #[derive(Default)]
-pub struct Calls {
+pub struct TabCalls {
     mapping: Option<LogMappingTask>,
 }
 
-impl Calls {
+impl TabCalls {
     /// Executes a call, and returns its answer: JSON, or the bytes of a picture.
     ///
     /// # Errors
-    /// The reason, with the messages that lead to it.
-    pub fn answer(&mut self, call: &[u8], tab: Option<&mut Tab>) -> Result<Vec<u8>, String> {
-        let call: Call = serde_json::from_slice(call)
-            .map_err(|error| format!("the call is not valid: {error}"))?;
-        self.execute(call, tab).map_err(|why| with_messages(&why))
+    /// The reason.
+    pub fn answer(&mut self, call: &[u8], tab: Option<&mut Tab>) -> Result<Vec<u8>, TabCallError> {
+        self.execute(serde_json::from_slice(call).map_err(TabCallError::Invalid)?, tab)
     }
 
-    fn execute(&mut self, call: Call, tab: Option<&mut Tab>) -> Result<Vec<u8>, String> {
+    fn execute(&mut self, call: TabCall, tab: Option<&mut Tab>) -> Result<Vec<u8>, TabCallError> {
         let answer = match call {
-            Call::Check(options) => check(&options)?,
-            Call::Unpack(options) => unpacked(&options)?,
-            Call::MapOpen(options) => {
+            TabCall::Check(options) => check(&options)?,
+            TabCall::Unpack(options) => unpacked(&options)?,
+            TabCall::MapOpen(options) => {
                 // The memory of an old map is freed first.
                 self.mapping = None;
                 self.mapping = Some(LogMappingTask::open(options)?);
                 json!({ "messages": take_messages() })
             }
-            Call::MapStep(options) => {
+            TabCall::MapStep(options) => {
                 let budget_ms = options.budget_ms.clamp(0.0, MAX_SLICE_MS);
                 self.mapping()?.step(Duration::from_secs_f64(budget_ms * 1e-3))?
             }
-            Call::MapPreview(NoOptions {}) => return self.mapping()?.preview(),
-            Call::MapWrite(NoOptions {}) => self.mapping()?.write()?,
-            Call::MapClose(NoOptions {}) => {
+            TabCall::MapPreview(NoOptions {}) => return self.mapping()?.preview(),
+            TabCall::MapWrite(NoOptions {}) => self.mapping()?.write()?,
+            TabCall::MapClose(NoOptions {}) => {
                 self.mapping = None;
                 json!({})
             }
-            Call::WriteResults(NoOptions {}) => {
-                let tab = tab.ok_or("there is no session; open one first")?;
-                json!({ "folder": tab.write_results()? })
+            TabCall::WriteResults(NoOptions {}) => {
+                let tab =
+                    tab.ok_or(TabCallError::NotReady("there is no session; open one first"))?;
+                json!({ "folder": tab.write_results().map_err(TabCallError::Results)? })
             }
-            Call::Messages(NoOptions {}) => json!({ "text": take_messages() }),
+            TabCall::Messages(NoOptions {}) => json!({ "text": take_messages() }),
         };
-        serde_json::to_vec(&answer).map_err(|error| error.to_string())
+        serde_json::to_vec(&answer).map_err(TabCallError::Invalid)
     }
 
-    fn mapping(&mut self) -> Result<&mut LogMappingTask, String> {
-        self.mapping.as_mut().ok_or_else(|| "no log is mapped; `map_open` starts it".to_owned())
+    fn mapping(&mut self) -> Result<&mut LogMappingTask, TabCallError> {
+        self.mapping
+            .as_mut()
+            .ok_or(TabCallError::NotReady("no log is mapped; `map_open` starts it"))
     }
 }
 
@@ -147,9 +149,9 @@ pub(crate) fn with_messages(why: &str) -> String {
     if messages.is_empty() { why.to_owned() } else { format!("{messages}{why}") }
 }
 
-fn check(options: &CheckOptions) -> Result<Value, String> {
+fn check(options: &CheckOptions) -> Result<Value, TabCallError> {
     if options.files.is_empty() {
-        return Err("no file to check: give `files`".to_owned());
+        return Err(TabCallError::Argument("no file to check: give `files`".to_owned()));
     }
     let arguments: Vec<(String, String)> =
         options.arguments.iter().map(|(name, value)| (name.clone(), value.clone())).collect();
@@ -160,7 +162,7 @@ fn check(options: &CheckOptions) -> Result<Value, String> {
         });
     let mut text = Vec::new();
     for file in &checked {
-        file.write_text(&mut text, false).map_err(|error| error.to_string())?;
+        file.write_text(&mut text, false).map_err(TabCallError::Output)?;
     }
     let is_ok = !checked.iter().any(|file| file.is_bad(options.strict));
     let files: Vec<Value> = checked.iter().map(CheckedFile::to_json).collect();
@@ -168,10 +170,11 @@ fn check(options: &CheckOptions) -> Result<Value, String> {
     Ok(json!({ "report": report(&files, is_ok), "text": text }))
 }
 
-fn unpacked(options: &UnpackOptions) -> Result<Value, String> {
-    let path = options.archive.display();
-    let archive = fs::read(&options.archive).map_err(|error| format!("`{path}`: {error}"))?;
-    let contents = unpack::read(&archive).map_err(|error| format!("`{path}`: {error}"))?;
+fn unpacked(options: &UnpackOptions) -> Result<Value, TabCallError> {
+    let path = &options.archive;
+    let archive = fs::read(path).map_err(|error| TabCallError::File(path.clone(), error))?;
+    let contents =
+        unpack::read(&archive).map_err(|error| TabCallError::Archive(path.clone(), error))?;
     let mut files = Vec::new();
     let bytes: usize = contents.files.iter().map(|(_, content)| content.len()).sum();
     for (name, content) in contents.files {
@@ -179,7 +182,7 @@ fn unpacked(options: &UnpackOptions) -> Result<Value, String> {
         let folder = target.parent().unwrap_or(Path::new("/"));
         fs::create_dir_all(folder)
             .and_then(|()| fs::write(&target, content))
-            .map_err(|error| format!("`{}`: {error}", target.display()))?;
+            .map_err(|error| TabCallError::File(target.clone(), error))?;
         files.push(target);
     }
     Ok(json!({ "files": files, "bytes": bytes, "left_out": contents.left_out }))

@@ -13,7 +13,7 @@ use std::time::Duration;
 
 use periplus_os::fs;
 
-use crate::calls::{Calls, with_messages};
+use crate::calls::{TabCalls, with_messages};
 use crate::files;
 use crate::tab::{Tab, TabFrame};
 
@@ -27,7 +27,7 @@ unsafe extern "C" {
 
 thread_local! {
     static TAB: RefCell<Option<Tab>> = const { RefCell::new(None) };
-    static CALLS: RefCell<Calls> = RefCell::default();
+    static CALLS: RefCell<TabCalls> = RefCell::default();
     static ANSWER: RefCell<Vec<u8>> = const { RefCell::new(Vec::new()) };
 }
 
@@ -188,14 +188,14 @@ pub extern "C" fn periplus_write_file(
     answer(written.map(|()| Vec::new()).map_err(|error| format!("`{path}`: {error}")))
 }
 
-/// Executes a call in JSON, such as a check of files, and leaves its answer; see [`crate::calls::Call`].
+/// Executes a call in JSON, such as a check of files, and leaves its answer; see [`crate::calls::TabCall`].
 #[unsafe(no_mangle)]
 pub extern "C" fn periplus_call(call: *mut u8, length: usize) -> u32 {
     prepare();
     let call = passed(call, length);
-    answer(
-        TAB.with_borrow_mut(|tab| CALLS.with_borrow_mut(|calls| calls.answer(&call, tab.as_mut()))),
-    )
+    let answered =
+        TAB.with_borrow_mut(|tab| CALLS.with_borrow_mut(|calls| calls.answer(&call, tab.as_mut())));
+    answer(answered.map_err(|error| with_messages(&error.to_string())))
 }
 
 /// Steps at the real-time factor of the world for at most this much wall time \[ms\]; the answer is the time until the

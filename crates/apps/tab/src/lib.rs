@@ -4,6 +4,7 @@
 //! memory. In WebAssembly the module `exports` offers it as functions that take and return addresses; they
 //! need no generated code on the side of JavaScript.
 
+mod call_error;
 pub mod calls;
 #[cfg(target_family = "wasm")]
 pub mod exports;
@@ -16,5 +17,6 @@ mod run;
 mod tab;
 pub mod unpack;
 
+pub use call_error::TabCallError;
 pub use options::{DemoOptions, RunOptions, TabOptions};
 pub use tab::{Tab, TabError, TabFrame};

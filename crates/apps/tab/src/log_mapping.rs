@@ -9,6 +9,8 @@ use periplus_session::scan_log::LogSelection;
 use serde::Deserialize;
 use serde_json::{Value, json};
 
+use crate::call_error::TabCallError;
+
 /// Largest log. It is in memory as a file and again as scans, beside the map, and a module of 32 bits has 4 GiB.
 const MAX_LOG_BYTES: u64 = 1 << 30;
 
@@ -65,7 +67,7 @@ pub struct LogMappingOptions {
 }
 
 impl LogMappingOptions {
-    fn request(self) -> Result<LogMappingRequest, String> {
+    fn request(self) -> Result<LogMappingRequest, TabCallError> {
         let usual = LogSelection::default();
         Ok(LogMappingRequest {
             log: self.log,
@@ -77,7 +79,11 @@ impl LogMappingOptions {
                 preferred_base: None,
             },
             out: self.out,
-            method: self.method.map(|name| name.parse()).transpose()?,
+            method: self
+                .method
+                .map(|name| name.parse())
+                .transpose()
+                .map_err(TabCallError::Argument)?,
             parameters: self.parameters,
             params_file: self.params_file,
             seed: self.seed,
@@ -124,22 +130,17 @@ impl LogMappingTask {
     ///
     /// # Errors
     /// When the log is too large, or cannot be read.
-    pub fn open(options: LogMappingOptions) -> Result<Self, String> {
+    pub fn open(options: LogMappingOptions) -> Result<Self, TabCallError> {
         let bytes = size(&options.log);
         if bytes > MAX_LOG_BYTES {
-            return Err(format!(
-                "{} has {} MB; a browser tab maps logs of at most {} MB. `periplus slam LOG --out DIR` maps it on \
-                 your machine",
-                options.log.display(),
-                bytes >> 20,
-                MAX_LOG_BYTES >> 20
-            ));
+            return Err(TabCallError::TooLarge(options.log, bytes >> 20, MAX_LOG_BYTES >> 20));
         }
         for file in [&options.session_out, &options.g2o_out].into_iter().flatten() {
             let folder = file.parent().unwrap_or(Path::new("/"));
-            fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+            fs::create_dir_all(folder)
+                .map_err(|error| TabCallError::File(folder.to_owned(), error))?;
         }
-        let mapping = LogMapping::open(options.request()?).map_err(|error| error.to_string())?;
+        let mapping = LogMapping::open(options.request()?)?;
         Ok(Self { mapping, phase: Phase::Mapping })
     }
 
@@ -148,7 +149,7 @@ impl LogMappingTask {
     ///
     /// # Errors
     /// When the log can no longer be read.
-    pub fn step(&mut self, budget: Duration) -> Result<Value, String> {
+    pub fn step(&mut self, budget: Duration) -> Result<Value, TabCallError> {
         let watch = Stopwatch::start();
         while self.phase != Phase::Complete {
             let (done, total) = self.mapping.position();
@@ -156,7 +157,7 @@ impl LogMappingTask {
                 self.phase = Phase::Finishing;
                 break;
             }
-            self.phase = match self.mapping.step().map_err(|error| error.to_string())? {
+            self.phase = match self.mapping.step()? {
                 MappingStep::Scan | MappingStep::Restarted(_) => Phase::Mapping,
                 MappingStep::Complete => Phase::Complete,
             };
@@ -188,8 +189,8 @@ impl LogMappingTask {
     ///
     /// # Errors
     /// When there is no map yet, or it is too large to draw.
-    pub fn preview(&self) -> Result<Vec<u8>, String> {
-        self.mapping.preview().ok_or_else(|| "there is no map to draw yet".to_owned())
+    pub fn preview(&self) -> Result<Vec<u8>, TabCallError> {
+        self.mapping.preview().ok_or(TabCallError::NotReady("there is no map to draw yet"))
     }
 
     /// Writes the results, and returns the report: its JSON, its text, faults of the log, and why the map must not
@@ -197,14 +198,16 @@ impl LogMappingTask {
     ///
     /// # Errors
     /// When the map is not complete, or a file cannot be written.
-    pub fn write(&self) -> Result<Value, String> {
+    pub fn write(&self) -> Result<Value, TabCallError> {
         if self.phase != Phase::Complete {
-            return Err("the map is not complete; step until the phase is `complete`".to_owned());
+            return Err(TabCallError::NotReady(
+                "the map is not complete; step until the phase is `complete`",
+            ));
         }
         let report = self.mapping.report();
-        self.mapping.write(&report).map_err(|error| error.to_string())?;
+        self.mapping.write(&report)?;
         let mut text = Vec::new();
-        report.write_text(&mut text, true).map_err(|error| error.to_string())?;
+        report.write_text(&mut text, true).map_err(TabCallError::Output)?;
         let faults = self.mapping.faults();
         Ok(json!({
             "report": report.to_json(),

@@ -78,7 +78,7 @@ pub struct RunOptions {
     /// Seed of all noise.
     pub seed: u64,
     /// Motion model.
-    pub dynamics: Dynamics,
+    pub dynamics: RunDynamics,
     /// Simulation step \[s\]; by default that of the world.
     pub step_s: Option<f64>,
     /// True to reproduce quirks of Gazebo.
@@ -122,7 +122,7 @@ pub struct RunOptions {
 /// Motion model of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Dynamics {
+pub enum RunDynamics {
     /// Bodies, joints, contacts and friction.
     #[default]
     Rigid,

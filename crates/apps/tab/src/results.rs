@@ -2,6 +2,9 @@
 
 use std::path::PathBuf;
 
+use periplus_session::RunError;
+use periplus_session::nodes::MappingNode;
+
 use crate::tab::Tab;
 
 impl Tab {
@@ -10,8 +13,8 @@ impl Tab {
     ///
     /// # Errors
     /// When there is no map yet, or a file cannot be written.
-    pub fn write_results(&self) -> Result<Option<PathBuf>, String> {
+    pub fn write_results(&self) -> Result<Option<PathBuf>, RunError> {
         let mapping = self.session().estimators().mapping.as_ref();
-        mapping.map_or(Ok(None), |node| node.write_results().map_err(|error| error.to_string()))
+        mapping.map_or(Ok(None), MappingNode::write_results)
     }
 }

@@ -20,7 +20,7 @@ use periplus_sim::{
 };
 
 use crate::opened::{OpenedSession, make_folder};
-use crate::options::{Dynamics, RecordOptions, RobotOptions, RunOptions};
+use crate::options::{RecordOptions, RobotOptions, RunDynamics, RunOptions};
 use crate::tab::TabError;
 
 /// Extensions of worlds that are named without a path.
@@ -189,8 +189,8 @@ fn simulation(options: &RunOptions, folder: &Folder) -> Result<Options, TabError
     Ok(Options {
         seed: options.seed,
         mode: match options.dynamics {
-            Dynamics::Rigid => PhysicsMode::Rigid,
-            Dynamics::Kinematic => PhysicsMode::Kinematic,
+            RunDynamics::Rigid => PhysicsMode::Rigid,
+            RunDynamics::Kinematic => PhysicsMode::Kinematic,
         },
         step_s: options.step_s,
         quirks: if options.gz_quirks { Quirks::GAZEBO } else { Quirks::default() },

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use periplus_os::fs;
 use periplus_tab::Tab;
-use periplus_tab::calls::Calls;
+use periplus_tab::calls::TabCalls;
 use serde_json::{Value, json};
 
 /// Folder that is removed at the end of the test.
@@ -32,8 +32,9 @@ impl Drop for Folder {
     }
 }
 
-fn call(calls: &mut Calls, call: &Value) -> Result<Value, String> {
-    let answer = calls.answer(call.to_string().as_bytes(), None)?;
+fn call(calls: &mut TabCalls, call: &Value) -> Result<Value, String> {
+    let answer =
+        calls.answer(call.to_string().as_bytes(), None).map_err(|error| error.to_string())?;
     Ok(serde_json::from_slice(&answer).expect("an answer in JSON"))
 }
 
@@ -47,7 +48,8 @@ fn findings_are_those_of_the_file() {
     let file =
         folder.write("cart.urdf", "<robot name='cart'><link name='a'/><lnk name='b'/></robot>");
     let answer =
-        call(&mut Calls::default(), &json!({"check": {"files": [file], "strict": true}})).unwrap();
+        call(&mut TabCalls::default(), &json!({"check": {"files": [file], "strict": true}}))
+            .unwrap();
     let report = &answer["report"];
     assert_eq!(report["ok"], json!(false));
     let findings = report["files"][0]["findings"].as_array().unwrap();
@@ -65,7 +67,7 @@ fn a_package_is_unpacked_and_its_robot_runs() {
     archive.append_dir_all("kbot", root().join("robots/kbot")).unwrap();
     let archive = archive.into_inner().unwrap().finish().unwrap();
     let archive = folder.write("kbot.tar.gz", archive);
-    let mut calls = Calls::default();
+    let mut calls = TabCalls::default();
     let unpacked =
         call(&mut calls, &json!({"unpack": {"archive": archive, "folder": folder.0}})).unwrap();
     assert_eq!(unpacked["left_out"], json!([]));
@@ -138,7 +140,7 @@ fn a_log_is_mapped_in_slices() {
     let folder = Folder::new("map");
     let log = folder.write("drive.log", carmen_log(20));
     let out = folder.0.join("map");
-    let mut calls = Calls::default();
+    let mut calls = TabCalls::default();
     let open =
         json!({"map_open": {"log": log, "out": out, "session_out": out.join("map.session")}});
     call(&mut calls, &open).unwrap();
@@ -175,11 +177,11 @@ fn a_log_that_cannot_be_mapped_gives_the_reason() {
     let folder = Folder::new("no-map");
     let log = folder.write("empty.log", "# nothing\n");
     let open = |log: &Path| json!({"map_open": {"log": log, "out": "/never"}});
-    let empty = call(&mut Calls::default(), &open(&log)).unwrap_err();
+    let empty = call(&mut TabCalls::default(), &open(&log)).unwrap_err();
     assert!(empty.contains("empty.log"), "{empty}");
-    let missing = call(&mut Calls::default(), &open(&folder.0.join("a.log"))).unwrap_err();
+    let missing = call(&mut TabCalls::default(), &open(&folder.0.join("a.log"))).unwrap_err();
     assert!(missing.contains("a.log"), "{missing}");
     let method = json!({"map_open": {"log": log, "out": "/never", "method": "gmaping"}});
-    let method = call(&mut Calls::default(), &method).unwrap_err();
+    let method = call(&mut TabCalls::default(), &method).unwrap_err();
     assert!(method.contains("`gmaping` is no method"), "{method}");
 }

@@ -93,7 +93,7 @@ fn tutorials_exist() {
     }
 }
 
-/// Each session runs with exactly its files, which are copied to a folder of their own.
+/// Each session runs with exactly its files, which are copied to a separate folder.
 #[test]
 fn each_session_runs_with_its_files() {
     for session in expanded()["sessions"].as_array().unwrap() {

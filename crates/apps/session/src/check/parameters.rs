@@ -5,15 +5,16 @@ use std::path::Path;
 use periplus_diagnostics::{Diagnostic, Diagnostics, SourceMap};
 use periplus_yaml::YamlNode;
 
+use crate::error::RunError;
 use crate::files;
 use crate::nodes::read_costmap_text;
 
 /// Returns the findings of clocks and costmaps of a parameter file.
 ///
 /// # Errors
-/// A message if the file cannot be read or has no parameters.
-pub fn examine_parameters(path: &Path) -> Result<Vec<(Diagnostics, SourceMap)>, String> {
-    let text = files::text(path).map_err(|error| error.to_string())?;
+/// When the file cannot be read or has no parameters.
+pub fn examine_parameters(path: &Path) -> Result<Vec<(Diagnostics, SourceMap)>, RunError> {
+    let text = files::text(path)?;
     let mut sources = SourceMap::new();
     let mut found = Diagnostics::new();
     let file = sources.add(path.display().to_string(), text.clone());
@@ -24,13 +25,12 @@ pub fn examine_parameters(path: &Path) -> Result<Vec<(Diagnostics, SourceMap)>, 
             let has_costmap = text.contains("costmap");
             all.push((found, sources));
             if has_costmap {
-                let mut costmaps = read_costmap_text(&path.display().to_string(), text, None)
-                    .map_err(|error| error.to_string())?;
+                let mut costmaps = read_costmap_text(&path.display().to_string(), text, None)?;
                 costmaps.add_layer_findings();
                 all.push((costmaps.diagnostics, costmaps.sources));
             }
         }
-        Ok(None) => return Err(format!("{} is empty", path.display())),
+        Ok(None) => return Err(RunError::NoParameters(format!("{} is empty", path.display()))),
         Err(error) => {
             found.push(*error);
             all.push((found, sources));
