@@ -17,6 +17,10 @@ pub mod files;
 mod live;
 pub mod log_mapping;
 #[cfg(any(test, target_family = "wasm"))]
+#[cfg_attr(
+    not(target_family = "wasm"),
+    expect(unreachable_pub, reason = "only a tab has messages")
+)]
 mod messages;
 #[cfg(not(target_family = "wasm"))]
 mod network;

@@ -1,4 +1,5 @@
 //! Functions of the module that take JSON: checks, archives, mapping of logs, results of a session.
+#![expect(clippy::disallowed_methods, reason = "a tab is an edge: its files are in memory")]
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -24,11 +25,11 @@ const MAX_SLICE_MS: f64 = 10_000.0;
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum TabCall {
     /// Checks files. Answer: `report`, as `periplus check --json` prints it, and `text`, as it prints without.
-    Check(CheckOptions),
+    Check(Box<CheckOptions>),
     /// Unpacks an archive. Answer: `files`, `bytes`, and `left_out` with the reasons.
     Unpack(UnpackOptions),
     /// Starts to map a log. Answer: `messages`.
-    MapOpen(LogMappingOptions),
+    MapOpen(Box<LogMappingOptions>),
     /// Maps for some time. Answer: the progress.
     MapStep(StepOptions),
     /// Draws the present map. Answer: bytes of a PNG.
@@ -105,7 +106,7 @@ impl TabCalls {
             TabCall::MapOpen(options) => {
                 // The memory of an old map is freed first.
                 self.mapping = None;
-                self.mapping = Some(LogMappingTask::open(options)?);
+                self.mapping = Some(LogMappingTask::open(*options)?);
                 json!({ "messages": take_messages() })
             }
             TabCall::MapStep(options) => {
@@ -144,6 +145,7 @@ pub(crate) fn take_messages() -> String {
 }
 
 /// A reason after the messages that lead to it.
+#[cfg(target_family = "wasm")]
 pub(crate) fn with_messages(why: &str) -> String {
     let messages = take_messages();
     if messages.is_empty() { why.to_owned() } else { format!("{messages}{why}") }

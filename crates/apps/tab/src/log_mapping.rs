@@ -1,4 +1,5 @@
 //! Mapping of a log in slices, as `periplus slam LOG`.
+#![expect(clippy::disallowed_methods, reason = "a tab is an edge: its files are in memory")]
 
 use std::path::{Path, PathBuf};
 use std::time::Duration;

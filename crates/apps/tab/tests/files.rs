@@ -1,4 +1,5 @@
 //! Sessions from files, checks and mapping, as the page calls them.
+#![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "tests look at files")]
 
 use std::path::{Path, PathBuf};
 
@@ -123,7 +124,7 @@ fn carmen_log(scans: usize) -> String {
         let ranges: Vec<String> = (0..181)
             .map(|beam| {
                 let angle = f64::from(beam - 90).to_radians();
-                let (sin, cos) = angle.sin_cos();
+                let (sin, cos) = libm::sincos(angle);
                 let side = if sin.abs() > 1e-9 { 2.0 / sin.abs() } else { f64::INFINITY };
                 let end = if cos > 1e-9 { (10.0 - x) / cos } else { f64::INFINITY };
                 format!("{:.2}", side.min(end))

@@ -1,5 +1,6 @@
 //! The ready sessions of the page: `sessions/declaration.json` names folders and worlds, `sessions/sessions.json` has
 //! the files that the page fetches. `UPDATE_EXPECT=1 cargo test -p periplus-tab --test sessions` writes the latter.
+#![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "tests look at files")]
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
