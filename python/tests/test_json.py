@@ -69,6 +69,7 @@ ON_FILES: list[tuple[str, list[str], int]] = [
     ("compare", ["run.mcap", "run.mcap"], 0),
     ("conformance", [str(ROOT / "conformance/cases")], 0),
     ("doctor", [ROBOT], 1),
+    ("doctor", ["--self"], 0),
     ("interface list", [], 0),
     ("interface package", ["std_srvs"], 0),
     ("interface packages", [], 0),

@@ -5,7 +5,7 @@ use std::fs;
 use std::process::Command;
 
 use crate::platforms;
-use crate::step::{Failed, cargo, root, run};
+use crate::step::{Failed, build_program, cargo, root, run};
 
 /// A robot with lidar, camera and IMU in a room; short, for debug builds are slow.
 const RUN: [&str; 11] = [
@@ -22,8 +22,14 @@ const RUN: [&str; 11] = [
     "--quiet",
 ];
 
-/// Debug first: it is what tests have built.
-const BUILDS: [&[&str]; 2] = [&[], &["--release"]];
+/// Program with the checks of debug builds.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum DebugProgram {
+    /// Built for this.
+    Own,
+    /// The one that the tests of the workspace use, which must be compiled: another one takes minutes.
+    OfTests,
+}
 
 const THREADS: [&str; 3] = ["1", "2", "8"];
 
@@ -31,16 +37,19 @@ const THREADS: [&str; 3] = ["1", "2", "8"];
 const RECORDING: &str = "target/determinism/run.mcap";
 
 /// Runs it every way and compares.
-pub(crate) fn check() -> Result<(), Failed> {
+pub(crate) fn check(debug: DebugProgram) -> Result<(), Failed> {
     let folder = root().join("target/determinism");
     fs::create_dir_all(&folder).map_err(|error| Failed(format!("target/determinism: {error}")))?;
     let mut first = None;
-    for build in BUILDS {
+    if debug == DebugProgram::Own {
+        run(cargo().args(["build", "--quiet", "-p", "periplus-cli"]), "see the errors above")?;
+    }
+    build_program()?;
+    for kind in ["debug", "release"] {
+        let program = root().join("target").join(kind).join("periplus");
         for threads in THREADS {
-            let kind = if build.is_empty() { "debug" } else { "release" };
-            let mut command = cargo();
-            command.arg("run").arg("--quiet").args(build).arg("--");
-            compare(&mut first, format!("{kind}-{threads}-threads"), &mut command, threads)?;
+            let name = format!("{kind}-{threads}-threads");
+            compare(&mut first, name, &mut Command::new(&program), threads)?;
         }
     }
     for (target, runner) in platforms::built() {

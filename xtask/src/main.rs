@@ -46,6 +46,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand, ValueEnum};
 
+use crate::determinism::DebugProgram;
 use crate::step::{Failed, cargo, run, timed};
 
 /// Tasks of a developer of Periplus.
@@ -389,7 +390,7 @@ fn perform(task: &Task) -> Result<(), Failed> {
         Task::Goals { goals, only, jobs } => {
             goals::evaluate(&goals::Plan { goals: *goals, only: only.clone(), jobs: *jobs })
         }
-        Task::Determinism => determinism::check(),
+        Task::Determinism => determinism::check(DebugProgram::Own),
         Task::Dist(options) => dist::run(options),
         Task::Platforms(options) => platforms::run(options),
         Task::Pictures => pictures::draw(),
@@ -415,7 +416,8 @@ fn ci() -> Result<(), Failed> {
     timed("wasm", wasm::check_if_installed)?;
     timed("deny", deny)?;
     timed("docs", || docs::run(None))?;
-    timed("determinism", determinism::check)?;
+    timed("tests: compile", || test(&["--no-run".to_owned()]))?;
+    timed("determinism", || determinism::check(DebugProgram::OfTests))?;
     timed("test", || test(&[]))
 }
 
