@@ -28,7 +28,8 @@ export const moduleName = () =>
 /** Expressions of the tests are text, which the policy of the page forbids; `loads` tests the page with it. */
 const FREE = { bypassCSP: true };
 const card = (page) => page.getByRole('alert').filter({ has: page.getByRole('button') });
-const running = (page) => until(page, 'periplusTab.phase.kind === "running"', 'a start', 60_000);
+const running = (page) =>
+  until(page, 'window.periplusTab?.phase.kind === "running"', 'a start', 60_000);
 
 /** Times from the request of the page until the robot is drawn, and until a scan is [s]. */
 export async function firstTimes(chrome, url, more = {}) {

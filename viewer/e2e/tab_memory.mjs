@@ -14,7 +14,9 @@ if (!(minutes > 0)) {
 const site = await serveFolder(PAGE);
 const chrome = await browser();
 const { page } = await open(chrome, `${site.url}?explore`, { bypassCSP: true });
-await page.waitForFunction('periplusTab.phase.kind === "running"', undefined, { timeout: 60_000 });
+await page.waitForFunction('window.periplusTab?.phase.kind === "running"', undefined, {
+  timeout: 60_000,
+});
 const devtools = await page.context().newCDPSession(page);
 const MIB = 2 ** 20;
 console.log('minute  module [MiB]  heap of the page [MiB]  real time  received [MB]');
