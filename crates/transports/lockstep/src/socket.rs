@@ -1,9 +1,6 @@
 //! The socket between a graph and a process: of the Unix domain where there is one, else TCP on the loopback.
 
 use std::io;
-use std::time::Duration;
-
-use periplus_transport::Since;
 
 #[cfg(unix)]
 pub(crate) use unix::{Listener, Stream};
@@ -105,7 +102,8 @@ mod tcp {
 
 /// Time for which a read polls before it sleeps: a process that answers at once costs no change of
 /// threads.
-const SPIN: Duration = Duration::from_micros(50);
+#[cfg(unix)]
+const SPIN: std::time::Duration = std::time::Duration::from_micros(50);
 
 /// Something that bytes come from.
 pub(crate) trait Source {
@@ -119,7 +117,7 @@ impl Source for Stream {
         #[cfg(unix)]
         {
             use rustix::net::{RecvFlags, recv};
-            let start = Since::now();
+            let start = periplus_transport::Since::now();
             while start.elapsed() < SPIN {
                 match recv(&*self, &mut *buffer, RecvFlags::DONTWAIT) {
                     Ok((count, _)) => return Ok(count),

@@ -15,6 +15,7 @@ use crate::terminal;
 pub(crate) const XACRO_VERB: &str = "__xacro";
 
 /// Number of folder names that are tried.
+#[cfg(unix)]
 const MAX_FOLDERS: u32 = 1000;
 
 /// Private folder with these programs. It is last on the PATH, after installed ones, and is removed
