@@ -379,6 +379,8 @@ export async function tab(chrome, serverUrl, out, attempt) {
   const site = await serveFolder(PAGE);
   try {
     const { page, complaints } = await open(chrome, site.url, FREE);
+    // The code of the page is loaded after its file.
+    await until(page, 'Boolean(window.periplus && window.periplusTab)', 'a page');
     const steps = {
       opens: () => STEPS.opens(page),
       'keeps time': () => keepsTime(page),
