@@ -14,7 +14,7 @@ use periplus::geometry::{LaserScan2, Pose2};
 use periplus::params::{ParamValues, Params as _};
 use periplus::scan_matching::Symmetric3;
 use periplus::slam::tables::{GmappingParams, MountingParams, SlamToolboxParams};
-use periplus::slam::{CorrectedInput, Method, MountingCorrection, Settings, Slam};
+use periplus::slam::{AnyMapper, CorrectedInput, Method, MountingCorrection, Settings, Slam};
 use pyo3::exceptions::{PyOSError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyList, PyType};
@@ -27,7 +27,7 @@ use crate::laser_scanner::{LaserScanner, scan_argument};
 use crate::maps::PyOccupancyGrid;
 use crate::poses::{PyPose, pose2_argument};
 use crate::transforms::{seconds, time_argument, times_argument};
-use mapper::{AnyMapper, Mapping};
+use mapper::Mapping;
 use records::{PoseGraph, SlamRemark, SlamUpdate};
 
 pub(crate) use grid::grid_argument;
@@ -102,7 +102,7 @@ impl PySlam {
     ) -> PyResult<Self> {
         let method = method.map(parse_method).transpose()?;
         let (method, values) = parameters::read(py, method, yaml.as_deref(), parameters)?;
-        Ok(Self::of(AnyMapper::new(method, &values), method, values, scanner))
+        Ok(Self::of(mapper::empty(method, &values), method, values, scanner))
     }
 
     /// Returns the parameters of a method as a list of dictionaries: ``name``, ``type``, ``unit``, ``default``,
@@ -160,7 +160,7 @@ impl PySlam {
         let correction = slam.correction(py)?.filter(|_| finish && corrects);
         let Some(correction) = correction else { return Ok(slam) };
         let Self { method, values, .. } = slam;
-        let slam = Self::of(AnyMapper::new(method, &values), method, values, None);
+        let slam = Self::of(mapper::empty(method, &values), method, values, None);
         slam.map_log(py, &scans, Some(correction), finish)?;
         slam.state.with(py, "Slam.from_log", |mapping| mapping.correction = Some(correction))?;
         Ok(slam)

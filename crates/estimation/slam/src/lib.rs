@@ -74,7 +74,7 @@ pub use gmapping::{Gmapping, GmappingSettings, Noise};
 pub use localizer::Localizer;
 pub use loops::Closure;
 pub use map::{MapSnapshot, Plan, SnapshotRaster};
-pub use method::{Mapper, Method};
+pub use method::{AnyMapper, Mapper, Method};
 pub use mounting::{CorrectedInput, MountingCorrection};
 pub use relations::{Errors, Miss, Relation, Score, Stamped, misses, read_relations, score};
 pub use remark::{Remark, RemarkKind};

@@ -7,13 +7,14 @@ use periplus_geometry::{LaserScan2, Pose2};
 use periplus_grid::OccupancyGrid;
 
 use crate::engine::{ConstraintResidual, Counts, MapContradiction, Slam, Update};
+use crate::gmapping::Gmapping;
 use crate::loops::Closure;
 use crate::map::Plan;
 use crate::remark::Remark;
 
 /// A map under construction by any method.
 ///
-/// [`Slam`] optimizes one pose graph; [`Gmapping`](crate::Gmapping) keeps a map per particle. Functions of only one of them
+/// [`Slam`] optimizes one pose graph; [`Gmapping`] keeps a map per particle. Functions of only one of them
 /// are on its own type.
 pub trait Mapper: Send {
     /// Returns the method.
@@ -75,6 +76,42 @@ pub trait Mapper: Send {
     /// Number of resamplings, for particle filters.
     fn resamplings(&self) -> usize {
         0
+    }
+}
+
+/// A map under construction, by one of the methods.
+pub enum AnyMapper {
+    /// By a pose graph.
+    Graph(Box<Slam>),
+    /// By a particle filter.
+    Gmapping(Box<Gmapping>),
+}
+
+impl AnyMapper {
+    /// Returns the mapper.
+    #[must_use]
+    pub fn get(&self) -> &dyn Mapper {
+        match self {
+            Self::Graph(slam) => &**slam,
+            Self::Gmapping(slam) => &**slam,
+        }
+    }
+
+    /// Returns the mapper, to add scans.
+    pub fn get_mut(&mut self) -> &mut dyn Mapper {
+        match self {
+            Self::Graph(slam) => &mut **slam,
+            Self::Gmapping(slam) => &mut **slam,
+        }
+    }
+
+    /// Returns the pose graph, if the method has one.
+    #[must_use]
+    pub fn graph(&self) -> Option<&Slam> {
+        match self {
+            Self::Graph(slam) => Some(slam),
+            Self::Gmapping(_) => None,
+        }
     }
 }
 

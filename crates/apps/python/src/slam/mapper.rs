@@ -5,8 +5,8 @@ use periplus::geometry::Pose2;
 use periplus::grid::{Grid, OccupancyGrid};
 use periplus::params::ParamValues;
 use periplus::slam::{
-    Gmapping, GmappingSettings, MapSnapshot, Mapper, Method, MountingCorrection, Plan as _,
-    Settings, Slam, Update,
+    AnyMapper, Gmapping, GmappingSettings, MapSnapshot, Mapper, Method, MountingCorrection,
+    Plan as _, Settings, Slam, Update,
 };
 use pyo3::prelude::*;
 
@@ -17,45 +17,17 @@ use crate::work::released;
 /// Number of slices of background work, of some milliseconds each, between two checks for Ctrl-C.
 const SLICES_PER_CHECK: usize = 4;
 
-/// A map by either method.
-pub(super) enum AnyMapper {
-    Graph(Box<Slam>),
-    Gmapping(Box<Gmapping>),
-}
-
 /// Settings of the graph: its background work is left to [`Mapping::work_slices`].
 pub(super) fn settings(values: &ParamValues) -> Settings {
     Settings { slices_per_scan: 0, ..Settings::of(values) }
 }
 
-impl AnyMapper {
-    pub(super) fn new(method: Method, values: &ParamValues) -> Self {
-        match method {
-            Method::Graph => Self::Graph(Box::new(Slam::new(settings(values)))),
-            Method::Gmapping => {
-                Self::Gmapping(Box::new(Gmapping::new(GmappingSettings::of(values))))
-            }
-        }
-    }
-
-    pub(super) fn get(&self) -> &dyn Mapper {
-        match self {
-            Self::Graph(slam) => &**slam,
-            Self::Gmapping(slam) => &**slam,
-        }
-    }
-
-    pub(super) fn get_mut(&mut self) -> &mut dyn Mapper {
-        match self {
-            Self::Graph(slam) => &mut **slam,
-            Self::Gmapping(slam) => &mut **slam,
-        }
-    }
-
-    pub(super) fn graph(&self) -> Option<&Slam> {
-        match self {
-            Self::Graph(slam) => Some(slam),
-            Self::Gmapping(_) => None,
+/// An empty map by a method.
+pub(super) fn empty(method: Method, values: &ParamValues) -> AnyMapper {
+    match method {
+        Method::Graph => AnyMapper::Graph(Box::new(Slam::new(settings(values)))),
+        Method::Gmapping => {
+            AnyMapper::Gmapping(Box::new(Gmapping::new(GmappingSettings::of(values))))
         }
     }
 }

@@ -1,10 +1,10 @@
 //! One pass over the scans of a log.
 
 use periplus_os::Stopwatch;
-use periplus_slam::{CorrectedInput, Mapper, MountingCorrection, Slam};
+use periplus_slam::{AnyMapper, CorrectedInput, Mapper, MountingCorrection, Slam};
 
 use super::error::LogMappingError;
-use super::mapper::SelectedMapper;
+use super::mapper;
 use super::parameters::SlamParameters;
 use super::request::LogMappingRequest;
 use crate::files::{self, FileError};
@@ -14,7 +14,7 @@ use crate::scan_log::ScanLog;
 pub(super) struct MappingPass {
     /// The log. Ranges of processed scans are freed: they are most of its memory, and the map has copied what it needs.
     log: ScanLog,
-    selected: SelectedMapper,
+    selected: AnyMapper,
     /// Correction of the data, when an error of it is known.
     cure: Option<CorrectedInput>,
     /// Every Nth scan is used.
@@ -46,10 +46,10 @@ impl MappingPass {
         if log.scans.is_empty() {
             return Err(LogMappingError::NoScans(request.log.clone()));
         }
-        let selected = SelectedMapper::new(request, parameters)?;
+        let selected = mapper::initial(request, parameters)?;
         let scans = log.scans.len();
         Ok(Self {
-            before: selected.mapper().trajectory().len(),
+            before: selected.get().trajectory().len(),
             log,
             selected,
             cure: remedy.map(CorrectedInput::new),
@@ -71,7 +71,7 @@ impl MappingPass {
         remedy: MountingCorrection,
     ) -> Result<(), LogMappingError> {
         self.log = ScanLog::default();
-        self.selected = SelectedMapper::new(request, parameters)?;
+        self.selected = mapper::initial(request, parameters)?;
         *self = Self::open(request, parameters, Some(remedy))?;
         Ok(())
     }
@@ -81,7 +81,7 @@ impl MappingPass {
         let number = self.next;
         let Some(logged) = self.log.scans.get_mut(number) else { return false };
         let one = Stopwatch::start();
-        let slam = self.selected.mapper_mut();
+        let slam = self.selected.get_mut();
         let ignored = slam.counts().ignored;
         // Counts and remarks have the outcome.
         let _ = match &mut self.cure {
@@ -107,12 +107,12 @@ impl MappingPass {
             _ => Ok(()),
         };
         let last = Stopwatch::start();
-        self.selected.mapper_mut().finish();
+        self.selected.get_mut().finish();
         self.finish_s = last.elapsed().as_secs_f64();
     }
 
     pub(super) fn mapper(&self) -> &dyn Mapper {
-        self.selected.mapper()
+        self.selected.get()
     }
 
     /// Pose graph, if the method has one.
