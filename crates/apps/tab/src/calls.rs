@@ -14,6 +14,7 @@ use serde_json::{Value, json};
 
 use crate::call_error::TabCallError;
 use crate::log_mapping::{LogMappingOptions, LogMappingTask};
+use crate::options::pairs;
 use crate::tab::Tab;
 use crate::unpack;
 
@@ -155,8 +156,7 @@ fn check(options: &CheckOptions) -> Result<Value, TabCallError> {
     if options.files.is_empty() {
         return Err(TabCallError::Argument("no file to check: give `files`".to_owned()));
     }
-    let arguments: Vec<(String, String)> =
-        options.arguments.iter().map(|(name, value)| (name.clone(), value.clone())).collect();
+    let arguments = pairs(&options.arguments);
     let checked: Vec<CheckedFile> =
         terminal::search(&options.resource_path).with_context(true, |context| {
             let context = LoadContext { arguments, ..context.clone() };

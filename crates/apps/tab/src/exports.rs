@@ -203,7 +203,8 @@ pub extern "C" fn periplus_call(call: *mut u8, length: usize) -> u32 {
 #[unsafe(no_mangle)]
 pub extern "C" fn periplus_run_paced(budget_ms: f64) -> u32 {
     with_tab(|tab| {
-        let budget = Duration::from_secs_f64(budget_ms.clamp(0.0, 1000.0) * 1e-3);
+        let budget =
+            Duration::try_from_secs_f64(budget_ms.clamp(0.0, 1000.0) * 1e-3).unwrap_or_default();
         let wait = tab.run_paced(budget).map_err(|error| error.to_string())?;
         Ok((wait.as_secs_f64() * 1e3).to_le_bytes().to_vec())
     })

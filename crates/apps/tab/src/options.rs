@@ -61,6 +61,11 @@ pub struct DemoOptions {
     pub out: Option<PathBuf>,
 }
 
+/// Xacro arguments as the loader takes them.
+pub(crate) fn pairs(arguments: &BTreeMap<String, String>) -> Vec<(String, String)> {
+    arguments.iter().map(|(name, value)| (name.clone(), value.clone())).collect()
+}
+
 /// Options of a run, as those of `periplus sim`.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]

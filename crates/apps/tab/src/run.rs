@@ -1,7 +1,6 @@
 //! Sessions from files: a world and robots, as `periplus sim` runs them.
 #![expect(clippy::disallowed_methods, reason = "a tab is an edge: its files are in memory")]
 
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use periplus_bags::Compression;
@@ -21,7 +20,7 @@ use periplus_sim::{
 };
 
 use crate::opened::{OpenedSession, make_folder};
-use crate::options::{RecordOptions, RobotOptions, RunDynamics, RunOptions};
+use crate::options::{RecordOptions, RobotOptions, RunDynamics, RunOptions, pairs};
 use crate::tab::TabError;
 
 /// Extensions of worlds that are named without a path.
@@ -102,10 +101,6 @@ fn composed(
             None => compose_plain(&robots, &context),
         }
     }))
-}
-
-fn pairs(arguments: &BTreeMap<String, String>) -> Vec<(String, String)> {
-    arguments.iter().map(|(name, value)| (name.clone(), value.clone())).collect()
 }
 
 /// File of a world. A name without a path and extension is that of a file in `worlds`.
