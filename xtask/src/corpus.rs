@@ -6,7 +6,7 @@ use std::process::{Command, Stdio};
 
 use serde_json::{Value, json};
 
-use crate::step::{Failed, cargo, root, run, timed};
+use crate::step::{Failed, cargo, copy_folder, root, run, timed};
 
 /// Runs the oracles over `../shared/corpus`, then the tests that compare.
 pub(crate) fn run_all() -> Result<(), Failed> {
@@ -61,7 +61,7 @@ impl Work {
         // The robot in xacro's own tests asks for the package `xacro`, whose folder has another
         // name in the corpus.
         let packages = work.folder.join("packages");
-        copy(&work.corpus.join("xacro_tests"), &packages.join("xacro"))
+        copy_folder(&work.corpus.join("xacro_tests"), &packages.join("xacro"), |_| true)
             .map_err(|error| Failed(format!("cannot write to {}: {error}", packages.display())))?;
         Ok(work)
     }
@@ -185,18 +185,4 @@ fn oracle(name: &str) -> PathBuf {
 
 fn lines(files: &[PathBuf]) -> String {
     files.iter().map(|file| format!("{}\n", file.display())).collect()
-}
-
-fn copy(from: &Path, to: &Path) -> std::io::Result<()> {
-    fs::create_dir_all(to)?;
-    for entry in fs::read_dir(from)? {
-        let entry = entry?;
-        let target = to.join(entry.file_name());
-        if entry.path().is_dir() {
-            copy(&entry.path(), &target)?;
-        } else {
-            fs::write(&target, fs::read(entry.path())?)?;
-        }
-    }
-    Ok(())
 }

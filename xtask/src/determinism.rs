@@ -5,7 +5,7 @@ use std::fs;
 use std::process::Command;
 
 use crate::platforms;
-use crate::step::{Failed, build_program, cargo, root, run};
+use crate::step::{Failed, build_program, cargo, equal_start, root, run};
 
 /// A robot with lidar, camera and IMU in a room; short, for debug builds are slow.
 const RUN: [&str; 11] = [
@@ -74,7 +74,7 @@ fn compare(
         }
         Some((of, same)) if *same == bag => println!("{name}: the same as {of}"),
         Some((of, other)) => {
-            let place = bag.iter().zip(other.iter()).take_while(|(a, b)| a == b).count();
+            let place = equal_start(&bag, other);
             return Err(Failed(format!("{name} differs from {of} at byte {place}")));
         }
     }

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 pub(crate) use runner::Runner;
 
 use crate::dist::{Profile, TARGETS, Target, last_program};
-use crate::step::{Failed, build_native, root, timed};
+use crate::step::{Failed, build_native, equal_start, root, timed};
 
 /// Wish of the caller.
 #[derive(clap::Args)]
@@ -260,7 +260,7 @@ fn same(name: &str, one: &[u8], other: &[u8]) -> Result<(), Failed> {
     if one == other {
         return Ok(());
     }
-    let at = one.iter().zip(other).take_while(|(a, b)| a == b).count();
+    let at = equal_start(one, other);
     Err(Failed(format!(
         "{name} differs from that of this machine at byte {at} ({} and {} bytes): a function differs by platform, \
          such as `f64::sin` in place of `libm::sin`",

@@ -71,6 +71,33 @@ pub(crate) fn build_native() -> Result<PathBuf, Failed> {
     Ok(root().join("target/release").join(format!("periplus{}", std::env::consts::EXE_SUFFIX)))
 }
 
+/// Copies the files of a folder that are wanted, without their permissions.
+///
+/// # Errors
+/// When a file cannot be read or written.
+pub(crate) fn copy_folder(
+    from: &Path,
+    to: &Path,
+    is_wanted: impl Fn(&Path) -> bool + Copy,
+) -> std::io::Result<()> {
+    std::fs::create_dir_all(to)?;
+    for entry in std::fs::read_dir(from)? {
+        let entry = entry?;
+        let (path, target) = (entry.path(), to.join(entry.file_name()));
+        if path.is_dir() {
+            copy_folder(&path, &target, is_wanted)?;
+        } else if is_wanted(&path) {
+            std::fs::write(&target, std::fs::read(&path)?)?;
+        }
+    }
+    Ok(())
+}
+
+/// Number of bytes with which two files begin alike.
+pub(crate) fn equal_start(one: &[u8], other: &[u8]) -> usize {
+    one.iter().zip(other).take_while(|(a, b)| a == b).count()
+}
+
 /// The command as one would type it.
 fn shown(command: &Command) -> String {
     let program = Path::new(command.get_program()).file_name().unwrap_or_default();

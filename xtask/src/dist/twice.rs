@@ -5,7 +5,7 @@ use std::process::Command;
 
 use super::target::Target;
 use super::{Sources, archive_of, checksums, make_folder, read};
-use crate::step::{Failed, root};
+use crate::step::{Failed, equal_start, root};
 
 /// Builds the archive of a target from a copy of the tracked files, without anything that was built before, and
 /// compares it.
@@ -26,7 +26,7 @@ pub(super) fn compare(target: &Target, sources: &Sources, first: &Path) -> Resul
     let second = archive_of(&copy, target, &out)?;
     let (one, other) = (read(first)?, read(&second)?);
     if one != other {
-        let at = one.iter().zip(&other).take_while(|(a, b)| a == b).count();
+        let at = equal_start(&one, &other);
         return Err(Failed(format!(
             "{} and {} differ at byte {at}: unpack both and compare their files",
             first.display(),

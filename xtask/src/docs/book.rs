@@ -3,11 +3,10 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::Command;
-use std::{fs, io};
 
 use super::links::resolve;
 use super::page::{Page, Target};
-use crate::step::{Failed, root, run};
+use crate::step::{Failed, copy_folder, root, run};
 
 /// The folder with the pages of the site.
 pub(crate) const SOURCES: &str = "docs/";
@@ -65,24 +64,10 @@ fn add_page() -> Result<(), Failed> {
         );
         return Ok(());
     }
-    copy(&page, &place).map_err(|error| Failed(format!("target/site/run: {error}")))
-}
-
-/// Copies a folder; compressed twins of files, which only a host with support for them needs, are left out.
-fn copy(from: &Path, to: &Path) -> io::Result<()> {
-    fs::create_dir_all(to)?;
-    for entry in fs::read_dir(from)? {
-        let (path, target) = {
-            let entry = entry?;
-            (entry.path(), to.join(entry.file_name()))
-        };
-        if path.is_dir() {
-            copy(&path, &target)?;
-        } else if path.extension().is_none_or(|it| it != "br") {
-            fs::copy(&path, &target)?;
-        }
-    }
-    Ok(())
+    // Only hosts that choose between both need the compressed twins of files.
+    let is_plain = |path: &Path| path.extension().is_none_or(|it| it != "br");
+    copy_folder(&page, &place, is_plain)
+        .map_err(|error| Failed(format!("target/site/run: {error}")))
 }
 
 #[cfg(test)]

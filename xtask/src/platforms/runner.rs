@@ -27,7 +27,7 @@ impl Runner {
     /// Runner of the program of a target on this machine.
     ///
     /// # Errors
-    /// What is missing, and what to do.
+    /// When something is missing, with what to do.
     pub(crate) fn of(target: &Target, program: PathBuf) -> Result<Self, String> {
         if target.is_apple() && !target.is_native() {
             return Err("programs of macOS run on macOS only".to_owned());
