@@ -1,7 +1,8 @@
-// A server of static files, for the page without a server.
-import { createReadStream, existsSync, statSync } from 'node:fs';
+// A server of static files, for the page without a server and the documentation site.
+import { createReadStream, existsSync, readFileSync, statSync } from 'node:fs';
 import { createServer } from 'node:http';
 import { extname, join, normalize } from 'node:path';
+import { gzipSync } from 'node:zlib';
 
 const TYPES = {
   '.html': 'text/html; charset=utf-8',
@@ -10,13 +11,16 @@ const TYPES = {
   '.svg': 'image/svg+xml',
   '.json': 'application/json',
   '.wasm': 'application/wasm',
+  '.png': 'image/png',
+  '.woff2': 'font/woff2',
 };
 
 /**
  * Serves a folder on a free port. `isIsolated`: with the headers of a page that may use threads; `types`: other types of
- * files; `answer(path, response)`: true if it has answered a request itself.
+ * files; `answer(path, response)`: true if it has answered a request itself; `sent(type, bytes)`: texts are compressed with
+ * gzip, and this is told the size of each file as it is sent.
  */
-export async function serveFolder(folder, { isIsolated = false, types = {}, answer } = {}) {
+export async function serveFolder(folder, { isIsolated = false, types = {}, answer, sent } = {}) {
   const kinds = { ...TYPES, ...types };
   const server = createServer((request, response) => {
     const path = normalize(decodeURIComponent(new URL(request.url, 'http://x').pathname));
@@ -26,8 +30,17 @@ export async function serveFolder(folder, { isIsolated = false, types = {}, answ
       response.writeHead(404).end();
       return;
     }
+    const type = kinds[extname(file)] ?? 'application/octet-stream';
+    if (sent) {
+      const isText = /text|json|javascript|svg/.test(type);
+      const body = isText ? gzipSync(readFileSync(file)) : readFileSync(file);
+      sent(type, body.length);
+      const encoding = isText ? { 'content-encoding': 'gzip' } : {};
+      response.writeHead(200, { 'content-type': type, ...encoding }).end(body);
+      return;
+    }
     response.writeHead(200, {
-      'content-type': kinds[extname(file)] ?? 'application/octet-stream',
+      'content-type': type,
       'content-length': statSync(file).size,
       'cache-control': 'no-cache',
       ...(isIsolated && {

@@ -7,7 +7,7 @@ import { Sessions } from '../src/tab/sessions';
 import type { FromWorker, ToWorker } from '../src/tab/messages';
 import { PortSocket } from '../src/tab/port_socket';
 import { MAX_IN_FLIGHT_BYTES, SessionLoop, type Runner } from '../src/tab/session_loop';
-import { bytesText } from '../src/tab/files.svelte';
+import { bytesText } from '../src/app/bytes_text';
 
 describe('link', () => {
   test('without settings it is the demo, whose robot drives to goals', () => {

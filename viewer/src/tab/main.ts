@@ -10,7 +10,7 @@ function makeWorker(): WorkerPort {
   const early: FromWorker[] = [];
   const worker = new Worker(new URL('./worker.ts', import.meta.url), { type: 'module' });
   const url = new URL(moduleUrl, location.href).href;
-  worker.postMessage({ kind: 'load', url, bytes: MODULE_BYTES } satisfies ToWorker);
+  worker.postMessage({ kind: 'load', url } satisfies ToWorker);
   worker.onmessage = ({ data }: MessageEvent<FromWorker>) => early.push(data);
   return Object.assign(worker as unknown as WorkerPort, { early });
 }

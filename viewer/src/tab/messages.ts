@@ -16,7 +16,7 @@ export type Request =
 
 /** From the page. `session` counts the sessions: messages of an earlier one have no effect. */
 export type ToWorker =
-  | { kind: 'load'; url: string; bytes: number }
+  | { kind: 'load'; url: string }
   | { kind: 'open'; session: number; options: SessionOptions }
   | { kind: 'close'; session: number }
   | { kind: 'data'; session: number; data: Data }
