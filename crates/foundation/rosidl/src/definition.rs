@@ -15,6 +15,8 @@ pub enum Scalar {
     Char,
     /// `int8`.
     I8,
+    /// `byte` of ROS 1, a signed 8-bit integer.
+    Ros1Byte,
     /// `uint8`.
     U8,
     /// `int16`.
@@ -36,7 +38,7 @@ pub enum Scalar {
 }
 
 impl Scalar {
-    /// All of them with their names in interface texts.
+    /// All of ROS 2 with their names in interface texts.
     pub const NAMES: [(Self, &'static str); 13] = [
         (Self::Bool, "bool"),
         (Self::Byte, "byte"),
@@ -62,6 +64,9 @@ impl Scalar {
     /// Name in interface texts.
     #[must_use]
     pub fn name(self) -> &'static str {
+        if self == Self::Ros1Byte {
+            return "byte";
+        }
         Self::NAMES.iter().find(|(scalar, _)| *scalar == self).map_or("", |(_, name)| name)
     }
 
@@ -72,7 +77,7 @@ impl Scalar {
         let unsigned = |bits: u32| (0, (1_i128 << bits) - 1);
         Some(match self {
             Self::Bool | Self::F32 | Self::F64 => return None,
-            Self::I8 => signed(8),
+            Self::I8 | Self::Ros1Byte => signed(8),
             Self::I16 => signed(16),
             Self::I32 => signed(32),
             Self::I64 => signed(64),

@@ -113,7 +113,7 @@ fn one(json: &mut String, field: &Field) {
 /// Numbers of `type_description_interfaces/msg/FieldType`; a `char` is hashed as `uint8`.
 fn scalar_id(scalar: Scalar) -> u8 {
     match scalar {
-        Scalar::I8 => 2,
+        Scalar::I8 | Scalar::Ros1Byte => 2,
         Scalar::U8 | Scalar::Char => 3,
         Scalar::I16 => 4,
         Scalar::U16 => 5,

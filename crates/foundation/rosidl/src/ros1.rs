@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 use md5::{Digest, Md5};
 
 use crate::{
-    ArrayShape, Constant, Definition, ElementType, Literal, Registry, SEPARATOR, TypeName,
+    ArrayShape, Constant, Definition, ElementType, Literal, Registry, SEPARATOR, Scalar, TypeName,
 };
 
 /// Definition and MD5 sum of a type for ROS 1.
@@ -36,7 +36,7 @@ impl Registry {
             if next > 0 {
                 let _ = write!(text, "{SEPARATOR}\nMSG: {}\n", name.short());
             }
-            let parts = definition.constants.iter().map(|one| constant(one, &one.name));
+            let parts = definition.constants.iter().map(|one| constant(one, &one.name, Scalar::name));
             let fields = fields(definition, |name| Some(name.short()), &mut |name| {
                 if !order.contains(&name) {
                     order.push(name);
@@ -51,6 +51,17 @@ impl Registry {
         Some(Ros1Text { text, md5 })
     }
 
+    /// MD5 sum of a service: over the lines of its request and those of its response. `None` as for
+    /// [`Registry::ros1_text`].
+    #[must_use]
+    pub fn ros1_service_md5(&self, service: &TypeName) -> Option<String> {
+        let (request, response) = (service.implied("Request"), service.implied("Response"));
+        let mut sums = BTreeMap::new();
+        let mut text = self.summed_lines(&request, &mut sums)?;
+        text.push_str(&self.summed_lines(&response, &mut sums)?);
+        Some(md5_of(&text))
+    }
+
     fn sum<'a>(
         &'a self,
         name: &'a TypeName,
@@ -59,21 +70,27 @@ impl Registry {
         if let Some(known) = sums.get(name) {
             return Some(known.clone());
         }
+        let sum = md5_of(&self.summed_lines(name, sums)?);
+        sums.insert(name, sum.clone());
+        Some(sum)
+    }
+
+    /// Lines over which the sum of a type is computed.
+    fn summed_lines<'a>(
+        &'a self,
+        name: &TypeName,
+        sums: &mut BTreeMap<&'a TypeName, String>,
+    ) -> Option<String> {
         let definition = self.get(name)?;
         for (_, nested) in definition.nested() {
             if time_word(nested).is_none() {
                 self.sum(nested, sums)?;
             }
         }
-        let constants = definition.constants.iter().map(|one| constant(one, &one.name));
+        let constants = definition.constants.iter().map(|one| constant(one, &one.name, Scalar::name));
         let fields = fields(definition, |name| sums.get(name).cloned(), &mut |_| {})?;
         let lines: Vec<String> = constants.chain(fields).collect();
-        let mut sum = String::new();
-        for byte in Md5::digest(lines.join("\n")) {
-            let _ = write!(sum, "{byte:02x}");
-        }
-        sums.insert(name, sum.clone());
-        Some(sum)
+        Some(lines.join("\n"))
     }
 
     /// Returns the same types with names valid in ROS 2, and matching texts.
@@ -92,6 +109,14 @@ impl Registry {
         }
         all
     }
+}
+
+fn md5_of(text: &str) -> String {
+    let mut sum = String::new();
+    for byte in Md5::digest(text) {
+        let _ = write!(sum, "{byte:02x}");
+    }
+    sum
 }
 
 /// Lines of the fields; a sum replaces a nested message with its brackets.
@@ -140,9 +165,17 @@ fn time_word(name: &TypeName) -> Option<&'static str> {
     }
 }
 
-fn constant(constant: &Constant, name: &str) -> String {
+/// Word in ROS 2; there `byte` has no numeric meaning.
+fn ros2_word(scalar: Scalar) -> &'static str {
+    match scalar {
+        Scalar::Ros1Byte => Scalar::I8.name(),
+        other => other.name(),
+    }
+}
+
+fn constant(constant: &Constant, name: &str, word_of: fn(Scalar) -> &'static str) -> String {
     let word = match &constant.element {
-        ElementType::Scalar(scalar) => scalar.name(),
+        ElementType::Scalar(scalar) => word_of(*scalar),
         _ => "string",
     };
     let value = match &constant.value {
@@ -163,15 +196,14 @@ fn ros2_text(definition: &Definition) -> String {
         let name = one.name.to_ascii_uppercase();
         let line = match &one.value {
             Literal::Text(text) => format!("string {name}=\"{}\"", text.replace('"', "\\\"")),
-            _ => constant(one, &name),
+            _ => constant(one, &name, ros2_word),
         };
         text.push_str(&line);
         text.push('\n');
     }
     for field in &definition.fields {
         let word = match &field.r#type.element {
-            // `byte` has no numeric meaning in ROS 2.
-            ElementType::Scalar(scalar) => scalar.name().to_owned(),
+            ElementType::Scalar(scalar) => ros2_word(*scalar).to_owned(),
             ElementType::String(limit) => bounded("string", *limit),
             ElementType::WString(limit) => bounded("wstring", *limit),
             ElementType::Nested(name) => name.short(),

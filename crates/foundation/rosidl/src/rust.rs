@@ -272,7 +272,7 @@ fn scalar_type(scalar: Scalar) -> &'static str {
     match scalar {
         Scalar::Bool => "bool",
         Scalar::Byte | Scalar::Char | Scalar::U8 => "u8",
-        Scalar::I8 => "i8",
+        Scalar::I8 | Scalar::Ros1Byte => "i8",
         Scalar::I16 => "i16",
         Scalar::U16 => "u16",
         Scalar::I32 => "i32",

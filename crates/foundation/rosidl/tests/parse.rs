@@ -337,7 +337,7 @@ fn texts_of_ros_1_are_read_by_its_rules() {
     let (registry, found) = registry(InterfaceDialect::Ros1, &texts);
     assert_eq!(found, "");
     let old = registry.get(&TypeName::message("my_msgs", "Old")).unwrap();
-    assert_eq!(old.fields[1].r#type.element, ElementType::Scalar(Scalar::I8));
+    assert_eq!(old.fields[1].r#type.element, ElementType::Scalar(Scalar::Ros1Byte));
     assert_eq!(old.fields[2].r#type.shape, ArrayShape::Fixed(2));
     let time = TypeName::message("builtin_interfaces", "Time");
     assert_eq!(old.fields[2].r#type.element, ElementType::Nested(time));

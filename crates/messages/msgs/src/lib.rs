@@ -36,7 +36,9 @@ mod yaml;
 
 pub use binary::{Encapsulation, Format, decode, encode, recode};
 pub use codec::{Codec, WideString};
-pub use dynamic::{Adaptation, DynamicMessage, Layout, Part, TypeRegistry, Value};
+pub use dynamic::{
+    Adaptation, DynamicMessage, Layout, Part, RecodeError, Recoding, TypeRegistry, Value,
+};
 pub use error::{DecodeError, EncodeError, Problem};
 pub use generated::*;
 pub use json::{from_json, to_json};

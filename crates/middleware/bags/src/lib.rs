@@ -48,5 +48,5 @@ pub use qos::{Durability, History, Liveliness, QosProfile, Reliability};
 pub use read::{BagTopic, Limits, Message, Messages, OwnMessages, ReadError, Reader, Selection};
 pub use repair::{RepairError, repair};
 pub use ros1::{Ros1Compression, Ros1Settings, Ros1Writer};
-pub use translate::{Target, TranslateError, Translation};
+pub use translate::{Target, Translation};
 pub use write::{Settings, Stamp, Topic, TopicId, WriteError, Writer};

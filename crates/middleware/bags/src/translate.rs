@@ -1,12 +1,9 @@
 //! Conversion of messages between ROS 1 and ROS 2.
 
-use std::fmt;
 use std::sync::Arc;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics, SourceMap};
-use periplus_msgs::{
-    Adaptation, DecodeError, DynamicMessage, EncodeError, Format, Layout, TypeRegistry, recode,
-};
+use periplus_msgs::{Adaptation, Format, Layout, RecodeError, Recoding, TypeRegistry};
 use periplus_rosidl::{InterfaceDialect, InterfaceKind, Registry, TypeName};
 
 use crate::{BagTopic, QosProfile, Style, qos};
@@ -56,31 +53,9 @@ pub struct Translation {
 enum Way {
     /// No conversion.
     Same,
-    /// The same values in another encoding.
-    Recode { layout: Arc<Layout>, from: Format, to: Format },
-    /// Another revision of the type.
-    Adapt { layout: Arc<Layout>, from: Format, adaptation: Adaptation, to: Format },
+    /// Another encoding, and perhaps another revision of the type.
+    Convert(Recoding),
 }
-
-/// Reason for which a message cannot be converted.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum TranslateError {
-    /// The bytes cannot be decoded as the type.
-    Decode(DecodeError),
-    /// The target cannot represent the message.
-    Encode(EncodeError),
-}
-
-impl fmt::Display for TranslateError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Decode(error) => error.fmt(f),
-            Self::Encode(error) => error.fmt(f),
-        }
-    }
-}
-
-impl std::error::Error for TranslateError {}
 
 /// Types with another name in ROS 1.
 const RENAMED: [(&str, &str); 1] = [("tf/tfMessage", "tf2_msgs/msg/TFMessage")];
@@ -139,15 +114,11 @@ impl Translation {
             return None;
         };
         let goal = types.layout(&full_name)?;
-        let to = target.format();
-        let way = if source.has_bytes_of(goal) {
-            Way::Recode { layout: source, from, to }
-        } else {
-            let adaptation = Adaptation::new(&source, goal);
-            diagnostics.push(adapted(topic, &full_name, &adaptation));
-            Way::Adapt { layout: source, from, adaptation, to }
-        };
-        Some(Self { topic: described, way, out: Vec::new() })
+        let recoding = Recoding::new(&source, from, goal, target.format());
+        if let Some(adaptation) = recoding.adaptation() {
+            diagnostics.push(adapted(topic, &full_name, adaptation));
+        }
+        Some(Self { topic: described, way: Way::Convert(recoding), out: Vec::new() })
     }
 
     /// Creates a conversion that copies messages unchanged, in any encoding.
@@ -172,18 +143,11 @@ impl Translation {
     ///
     /// # Errors
     /// When the message cannot be decoded or encoded.
-    pub fn translate<'a>(&'a mut self, data: &'a [u8]) -> Result<&'a [u8], TranslateError> {
+    pub fn translate<'a>(&'a mut self, data: &'a [u8]) -> Result<&'a [u8], RecodeError> {
         self.out.clear();
         match &self.way {
             Way::Same => return Ok(data),
-            Way::Recode { layout, from, to } => {
-                recode(layout, *from, data, *to, &mut self.out).map_err(TranslateError::Decode)?;
-            }
-            Way::Adapt { layout, from, adaptation, to } => {
-                let message = DynamicMessage::decode(layout, *from, data);
-                let message = adaptation.apply(message.map_err(TranslateError::Decode)?);
-                message.encode(*to, &mut self.out).map_err(TranslateError::Encode)?;
-            }
+            Way::Convert(recoding) => recoding.convert(data, &mut self.out)?,
         }
         Ok(&self.out)
     }

@@ -397,7 +397,7 @@ fn kind(scalar: Scalar) -> NumberKind {
     match scalar {
         Scalar::Bool => NumberKind::Bool,
         Scalar::Byte | Scalar::Char | Scalar::U8 => NumberKind::U8,
-        Scalar::I8 => NumberKind::I8,
+        Scalar::I8 | Scalar::Ros1Byte => NumberKind::I8,
         Scalar::I16 => NumberKind::I16,
         Scalar::U16 => NumberKind::U16,
         Scalar::I32 => NumberKind::I32,

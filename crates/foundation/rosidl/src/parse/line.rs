@@ -193,7 +193,7 @@ fn read_element(word: &str, context: &Context) -> Result<ElementType, Wrong> {
         "time" if ros1 => return Ok(nested("builtin_interfaces", "Time")),
         "duration" if ros1 => return Ok(nested("builtin_interfaces", "Duration")),
         "Header" => return Ok(nested("std_msgs", "Header")),
-        "byte" if ros1 => return Ok(ElementType::Scalar(Scalar::I8)),
+        "byte" if ros1 => return Ok(ElementType::Scalar(Scalar::Ros1Byte)),
         _ => {}
     }
     if let Some(scalar) = Scalar::from_name(word) {

@@ -96,8 +96,9 @@ impl TypeRegistry {
     }
 }
 
-/// Types of ROS 1 Noetic with different fields, names or constants.
-const ROS1_TEXTS: [(&str, &str); 7] = [
+/// Types of ROS 1 Noetic with different fields, names or constants, or without equivalent in ROS 2.
+const ROS1_TEXTS: [(&str, &str); 8] = [
+    ("rosgraph_msgs/Log", include_str!("../../interfaces_ros1/rosgraph_msgs/Log.msg")),
     (
         "sensor_msgs/BatteryState",
         include_str!("../../interfaces_ros1/sensor_msgs/BatteryState.msg"),

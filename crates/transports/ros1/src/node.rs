@@ -1,0 +1,294 @@
+//! A node of ROS 1: its port with the slave API, its topics and services.
+//!
+//! Source: `wiki.ros.org/ROS/Slave_API`.
+
+use std::collections::BTreeMap;
+use std::net::{IpAddr, TcpStream};
+use std::sync::{Arc, Mutex, OnceLock};
+
+use periplus_transport::lock;
+
+use crate::error::Ros1Error;
+use crate::master::process_id;
+use crate::server::{Handler, Server};
+use crate::tcpros::{Header, Publication, Serving, SourceReport, read_header_after};
+use crate::xmlrpc::{Call, Fault, Value};
+
+/// A subscribed topic with its connections, for reports.
+pub(crate) struct SubscriptionReport {
+    pub(crate) topic: String,
+    pub(crate) of: String,
+    pub(crate) sources: Vec<SourceReport>,
+}
+
+/// Takes what the master and others tell a node.
+pub(crate) trait NodeEvents: Send + Sync + 'static {
+    /// The publishers of a topic have changed.
+    fn publishers(&self, topic: &str, publishers: Vec<String>);
+
+    /// The node is asked to end.
+    fn shutdown(&self, node: &str, why: &str);
+
+    /// Subscribed topics of the node.
+    fn subscriptions(&self, node: &str) -> Vec<SubscriptionReport>;
+}
+
+/// A node on its port, until this is dropped.
+pub(crate) struct NodePort {
+    api: Arc<NodeApi>,
+    _server: Server,
+}
+
+struct NodeApi {
+    name: String,
+    host: String,
+    port: OnceLock<u16>,
+    master_uri: String,
+    publications: Mutex<BTreeMap<String, Arc<Publication>>>,
+    services: Mutex<BTreeMap<String, Arc<Serving>>>,
+    events: Arc<dyn NodeEvents>,
+}
+
+/// Where a process listens, and how others reach it.
+#[derive(Clone, Debug)]
+pub(crate) struct Place {
+    /// Address to listen at.
+    pub(crate) address: IpAddr,
+    /// Name or address under which others reach this machine.
+    pub(crate) host: String,
+    pub(crate) master_uri: String,
+}
+
+impl NodePort {
+    pub(crate) fn open(
+        place: &Place,
+        name: &str,
+        events: Arc<dyn NodeEvents>,
+    ) -> Result<Self, Ros1Error> {
+        let host = if place.host.contains(':') {
+            format!("[{}]", place.host)
+        } else {
+            place.host.clone()
+        };
+        let api = Arc::new(NodeApi {
+            name: name.to_owned(),
+            host,
+            port: OnceLock::new(),
+            master_uri: place.master_uri.clone(),
+            publications: Mutex::default(),
+            services: Mutex::default(),
+            events,
+        });
+        let server = Server::open(place.address, 0, api.clone()).map_err(|error| {
+            Ros1Error::Port { address: place.address.to_string(), why: error.to_string() }
+        })?;
+        let _ = api.port.set(server.port());
+        Ok(Self { api, _server: server })
+    }
+
+    /// Name of the node.
+    pub(crate) fn name(&self) -> &str {
+        &self.api.name
+    }
+
+    /// Address of the slave API.
+    pub(crate) fn uri(&self) -> String {
+        format!("http://{}:{}/", self.api.host, self.api.port())
+    }
+
+    /// Address of the services.
+    pub(crate) fn service_uri(&self) -> String {
+        format!("rosrpc://{}:{}", self.api.host, self.api.port())
+    }
+
+    pub(crate) fn publish(&self, publication: Arc<Publication>) {
+        let topic = publication.topic.clone();
+        lock(&self.api.publications).insert(topic, publication);
+    }
+
+    /// Removes a topic and closes its connections.
+    pub(crate) fn unpublish(&self, topic: &str) {
+        if let Some(publication) = lock(&self.api.publications).remove(topic) {
+            publication.close();
+        }
+    }
+
+    pub(crate) fn serve(&self, serving: Serving) {
+        lock(&self.api.services).insert(serving.service.clone(), Arc::new(serving));
+    }
+
+    pub(crate) fn unserve(&self, service: &str) {
+        lock(&self.api.services).remove(service);
+    }
+}
+
+impl Drop for NodePort {
+    fn drop(&mut self) {
+        for publication in std::mem::take(&mut *lock(&self.api.publications)).values() {
+            publication.close();
+        }
+    }
+}
+
+impl Handler for NodeApi {
+    fn call(&self, call: Call) -> Result<Value, Fault> {
+        let texts: Vec<&str> = call.params.iter().map_while(Value::text).collect();
+        let done = |value: Value| Ok(Value::List(vec![Value::Int(1), "".into(), value]));
+        let wrong = |text: String| {
+            Ok(Value::List(vec![Value::Int(-1), text.into(), Value::Int(0)]))
+        };
+        match (call.method.as_str(), texts.as_slice()) {
+            ("getPid", _) => done(process_id().into()),
+            ("getMasterUri", _) => done(self.master_uri.clone().into()),
+            ("getBusStats", _) => done(self.bus_stats()),
+            ("getBusInfo", _) => done(self.bus_info()),
+            ("getPublications", _) => {
+                let publications = lock(&self.publications);
+                let pairs = publications.values();
+                let pairs = pairs.map(|one| vec![one.topic.clone(), one.of.name.clone()].into());
+                done(Value::List(pairs.collect()))
+            }
+            ("getSubscriptions", _) => {
+                let all = self.events.subscriptions(&self.name).into_iter();
+                let pairs = all.map(|one| vec![one.topic, one.of].into());
+                done(Value::List(pairs.collect()))
+            }
+            ("shutdown", &[caller, ..]) => {
+                let why = texts.get(1).copied().unwrap_or_default();
+                self.events.shutdown(&self.name, &format!("{caller}: {why}"));
+                done(Value::Int(0))
+            }
+            // Nodes of ROS 1 read parameters when they start.
+            ("paramUpdate", _) => done(Value::Int(0)),
+            ("publisherUpdate", &[_, topic]) => {
+                let Some(publishers) = call.params.get(2).and_then(Value::list) else {
+                    return wrong("publisherUpdate takes a list of addresses".into());
+                };
+                let publishers = publishers.iter().filter_map(Value::text).map(str::to_owned);
+                self.events.publishers(topic, publishers.collect());
+                done(Value::Int(0))
+            }
+            ("requestTopic", &[_, topic]) => self.request_topic(topic, call.params.get(2)),
+            (method, _) => {
+                let text = format!("method `{method}` is not supported, or its parameters are wrong");
+                Err(Fault { code: -1, text })
+            }
+        }
+    }
+
+    fn connect(&self, front: [u8; 4], stream: TcpStream) {
+        // What is wrong with a connection concerns its peer alone.
+        let Ok(header) = read_header_after(front, &mut &stream) else { return };
+        let _ = self.connect_with(&header, stream);
+    }
+}
+
+impl NodeApi {
+    fn port(&self) -> u16 {
+        self.port.get().copied().unwrap_or_default()
+    }
+
+    fn request_topic(&self, topic: &str, protocols: Option<&Value>) -> Result<Value, Fault> {
+        let answer = |code, text: String, value| {
+            Ok(Value::List(vec![Value::Int(code), text.into(), value]))
+        };
+        if !lock(&self.publications).contains_key(topic) {
+            let text = format!("{} does not publish [{topic}]", self.name);
+            return answer(0, text, Value::Int(0));
+        }
+        let offered = protocols.and_then(Value::list).unwrap_or_default();
+        let names = offered.iter().filter_map(|one| one.list()?.first()?.text());
+        let names: Vec<&str> = names.collect();
+        if !names.contains(&"TCPROS") {
+            let text = format!("{} is not supported; TCPROS is", names.join(", "));
+            return answer(0, text, Value::List(Vec::new()));
+        }
+        let host = self.host.trim_matches(['[', ']']);
+        let place = vec!["TCPROS".into(), host.into(), Value::Int(self.port().into())];
+        answer(1, format!("ready on {host}:{}", self.port()), Value::List(place))
+    }
+
+    fn connect_with(&self, header: &Header, stream: TcpStream) -> std::io::Result<()> {
+        if header.has("service") {
+            let name = header.get("service");
+            let serving = lock(&self.services).get(name).cloned();
+            return match serving {
+                Some(serving) => serving.connect(header, &stream),
+                None => refuse(&stream, &format!("{} does not serve [{name}]", self.name)),
+            };
+        }
+        let topic = header.get("topic");
+        let publication = lock(&self.publications).get(topic).cloned();
+        match publication {
+            Some(publication) => publication.serve(header, stream),
+            None => refuse(&stream, &format!("{} does not publish [{topic}]", self.name)),
+        }
+    }
+
+    /// Connections: `[id, peer, direction, protocol, topic, is connected, text]`.
+    fn bus_info(&self) -> Value {
+        let mut all = Vec::new();
+        let row = |id: i32, peer: String, way: &str, topic: &str| {
+            Value::List(vec![
+                Value::Int(id),
+                peer.into(),
+                way.into(),
+                "TCPROS".into(),
+                topic.into(),
+                Value::Bool(true),
+                format!("TCPROS connection on port {}", self.port()).into(),
+            ])
+        };
+        for publication in lock(&self.publications).values() {
+            for link in publication.report().1 {
+                all.push(row(link.id, link.peer, "o", &publication.topic));
+            }
+        }
+        for subscription in self.events.subscriptions(&self.name) {
+            for (id, source) in (0..).zip(subscription.sources) {
+                all.push(row(id, source.publisher, "i", &subscription.topic));
+            }
+        }
+        Value::List(all)
+    }
+
+    /// Counts of topics sent, topics received, and services.
+    fn bus_stats(&self) -> Value {
+        let count = |number: u64| Value::Int(i32::try_from(number).unwrap_or(i32::MAX));
+        let mut sent = Vec::new();
+        for publication in lock(&self.publications).values() {
+            let (bytes, links) = publication.report();
+            let links = links.iter().map(|link| {
+                let row = vec![
+                    Value::Int(link.id),
+                    count(link.sent_bytes),
+                    count(link.sent),
+                    Value::Bool(true),
+                ];
+                Value::List(row)
+            });
+            let links = Value::List(links.collect());
+            sent.push(Value::List(vec![publication.topic.clone().into(), count(bytes), links]));
+        }
+        let mut received = Vec::new();
+        for subscription in self.events.subscriptions(&self.name) {
+            let links = (0..).zip(&subscription.sources).map(|(id, source)| {
+                Value::List(vec![
+                    Value::Int(id),
+                    count(source.received_bytes),
+                    count(source.received),
+                    Value::Int(-1),
+                    Value::Bool(true),
+                ])
+            });
+            received
+                .push(Value::List(vec![subscription.topic.into(), Value::List(links.collect())]));
+        }
+        let services = Value::List(vec![Value::Int(0), Value::Int(0), Value::Int(0)]);
+        Value::List(vec![Value::List(sent), Value::List(received), services])
+    }
+}
+
+fn refuse(mut stream: &TcpStream, why: &str) -> std::io::Result<()> {
+    std::io::Write::write_all(&mut stream, &Header::new(&[("error", why)]).write())
+}

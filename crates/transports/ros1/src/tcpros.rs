@@ -1,0 +1,17 @@
+//! TCPROS: headers and messages with their lengths before them, all little endian.
+//!
+//! Source: `wiki.ros.org/ROS/TCPROS` and `wiki.ros.org/ROS/Connection Header`.
+
+mod frame;
+mod header;
+mod publication;
+mod service;
+mod subscription;
+
+pub(crate) use frame::{Frame, read_frame, read_frame_after};
+pub use frame::MAX_MESSAGE_BYTES;
+pub use header::{Header, MAX_HEADER_BYTES, MalformedHeader};
+pub(crate) use header::{read_header, read_header_after};
+pub(crate) use publication::Publication;
+pub(crate) use service::{ServiceConnection, ServiceEnd, Serving};
+pub(crate) use subscription::{Receive, Receiver, SourceReport, Subscription};
