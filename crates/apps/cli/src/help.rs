@@ -22,7 +22,7 @@ const GROUPS: [(&str, &[&str]); 7] = [
     ),
     ("Robots and worlds", &["check", "look", "convert"]),
     (
-        "ROS 2 and Gazebo",
+        "ROS and Gazebo",
         &[
             "topic",
             "node",
@@ -34,6 +34,7 @@ const GROUPS: [(&str, &[&str]); 7] = [
             "tf",
             "bag",
             "bridge",
+            "ros1",
         ],
     ),
     ("This program", &["mcp", "completions", "man", "schema", "conformance", "help"]),

@@ -33,6 +33,7 @@ mod program;
 mod recorded_command;
 mod report;
 mod rerun;
+mod ros1;
 mod run_options;
 mod scenario;
 mod schema;
@@ -146,6 +147,7 @@ pub fn run(words: Vec<String>, own_command: Vec<String>, interpreter: Option<Str
              `view`, `map`, `costmap` and `slam --live`",
         )),
         Command::Bag(command) => bag::run(&command),
+        Command::Ros1(command) => ros1::run(&command),
         Command::Calibrate(options) => calibrate::run(&options),
         Command::Check(options) => check::run(&options),
         Command::Compare(options) => compare::run(&options),

@@ -31,7 +31,7 @@ use crate::error::CliError;
 use crate::options::SearchOptions;
 use crate::page::PageOptions;
 use crate::run_options::{
-    Factor, Reach, TopicSelection, exit_code, factor, finite_numbers, positive,
+    Factor, Reach, Ros1Options, TopicSelection, exit_code, factor, finite_numbers, positive,
 };
 use crate::sim::Robots;
 use crate::terminal;
@@ -112,6 +112,8 @@ pub(crate) struct NavigateOptions {
     #[arg(long, value_enum, value_name = "off|loopback|network|zenoh")]
     ros2: Option<Reach>,
     #[command(flatten)]
+    ros1: Ros1Options,
+    #[command(flatten)]
     page: PageOptions,
     /// Do not open a browser
     #[arg(long, requires = "page")]
@@ -167,6 +169,7 @@ pub(crate) fn run(options: &NavigateOptions, ros: Vec<String>) -> Result<ExitCod
         .recording_truth(options.recorded.records_truth())
         .estimators(options.estimators()?)
         .ros2(options.ros2.map(Into::into))
+        .ros1(options.ros1.reach())
         .page(page)
         .build()?;
     let mut task = NavigateTask::new(&mut session, options, pose)?;

@@ -23,6 +23,7 @@ use crate::new::NewCommand;
 use crate::program::RunOptions;
 use crate::report::ReportOptions;
 use crate::rerun::RerunOptions;
+use crate::ros1::Ros1Command;
 use crate::scenario::ScenarioOptions;
 use crate::schema::SchemaOptions;
 use crate::score::ScoreOptions;
@@ -99,6 +100,8 @@ pub(crate) enum Command {
     Mcp(McpOptions),
     Costmap(CostmapServeOptions),
     Bridge(BridgeOptions),
+    #[command(subcommand)]
+    Ros1(Ros1Command),
     Conformance(ConformanceOptions),
     Schema(SchemaOptions),
     Doctor(Box<DoctorOptions>),

@@ -6,8 +6,11 @@ use std::process::ExitCode;
 use clap::{Args, ValueEnum};
 use periplus_bags::Compression;
 use periplus_gz_msgs::Dialect;
+use periplus_graph::Arguments;
 use periplus_gz_transport::DiscoveryReach;
-use periplus_session::{RecordingRequest, Ros2Reach, RunEnd};
+use periplus_os::Machine;
+use periplus_ros1::{MasterClient, RpcError, Settings};
+use periplus_session::{LiveGraph, RecordingRequest, Ros1Reach, Ros2Reach, RunEnd};
 use periplus_sim::Composition;
 
 use crate::error::CliError;
@@ -116,6 +119,106 @@ impl From<Reach> for Ros2Reach {
             Reach::Loopback => Self::Loopback,
             Reach::Network => Self::Network,
             Reach::Zenoh => Self::Zenoh,
+        }
+    }
+}
+
+/// Visibility of a run on ROS 1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Ros1Choice {
+    /// No program
+    Off,
+    /// ROS 1 programs on this machine
+    Loopback,
+    /// ROS 1 programs that reach this machine
+    Network,
+    /// ROS 1 programs on this machine, if a master answers
+    Auto,
+}
+
+/// Option of commands whose nodes can join ROS 1.
+#[derive(Clone, Copy, Debug, Args)]
+pub(crate) struct Ros1Options {
+    /// Join ROS 1: the master at ROS_MASTER_URI, or a master in this program if none answers;
+    /// `--ros1=network` beyond this machine, `--ros1=auto` only if a master answers
+    #[arg(
+        long,
+        value_enum,
+        value_name = "off|loopback|network|auto",
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = "loopback"
+    )]
+    ros1: Option<Ros1Choice>,
+}
+
+/// Option of commands whose nodes are either in ROS 2 or in ROS 1.
+#[derive(Clone, Copy, Debug, Args)]
+pub(crate) struct LiveNetworkOptions {
+    /// Use ROS 1 in place of ROS 2, with the master at ROS_MASTER_URI; `--ros1=auto` only if a
+    /// master answers there
+    #[arg(
+        long,
+        value_enum,
+        value_name = "on|auto",
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = "on"
+    )]
+    ros1: Option<Ros1Use>,
+}
+
+/// When a command uses ROS 1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Ros1Use {
+    /// In any case
+    On,
+    /// If a master answers
+    Auto,
+}
+
+impl Ros1Use {
+    /// Returns true if ROS 1 is used; says so if it was asked for and is not.
+    pub(crate) fn applies(self) -> bool {
+        let applies = self == Self::On || has_master();
+        if !applies {
+            terminal::say("no ROS 1 master answers: using ROS 2");
+        }
+        applies
+    }
+}
+
+impl LiveNetworkOptions {
+    /// The choice, for a part of the command with an option of the same name.
+    pub(crate) fn choice(self) -> Option<Ros1Use> {
+        self.ros1
+    }
+
+    /// Joins the network of the command.
+    pub(crate) fn open(self, arguments: Arguments) -> Result<LiveGraph, CliError> {
+        if self.ros1.is_some_and(Ros1Use::applies) {
+            Ok(LiveGraph::open_ros1(arguments)?)
+        } else {
+            Ok(LiveGraph::open(arguments)?)
+        }
+    }
+}
+
+/// True if a master answers at `ROS_MASTER_URI`.
+fn has_master() -> bool {
+    let (settings, _) = Settings::from_environment(&Machine, Ros1Reach::Machine);
+    let client = MasterClient::new(&settings.master_uri, "/periplus_cli");
+    !matches!(client.ask("getPid", Vec::new()), Err(RpcError::Unreachable(_)))
+}
+
+impl Ros1Options {
+    /// Requested visibility; `None` if the run does not join.
+    pub(crate) fn reach(self) -> Option<Ros1Reach> {
+        match self.ros1? {
+            Ros1Choice::Off => None,
+            Ros1Choice::Loopback => Some(Ros1Reach::Machine),
+            Ros1Choice::Network => Some(Ros1Reach::Network),
+            Ros1Choice::Auto => has_master().then_some(Ros1Reach::Machine),
         }
     }
 }

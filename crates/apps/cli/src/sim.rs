@@ -24,7 +24,7 @@ use crate::mapping::MappingOptions;
 use crate::options::SearchOptions;
 use crate::page::PageOptions;
 use crate::run_options::{
-    Factor, GzReach, GzTypes, Reach, TopicSelection, exit_code, factor, positive,
+    Factor, GzReach, GzTypes, Reach, Ros1Options, TopicSelection, exit_code, factor, positive,
 };
 use crate::terminal;
 
@@ -88,6 +88,8 @@ pub(crate) struct SimOptions {
     /// or ROS_AUTOMATIC_DISCOVERY_RANGE, at full speed `off`]
     #[arg(long, value_enum, value_name = "off|loopback|network|zenoh")]
     ros2: Option<Reach>,
+    #[command(flatten)]
+    ros1: Ros1Options,
     /// Publish the run on Gazebo Transport: topics, and the services of the world; `--gz=network`
     /// beyond this machine
     #[arg(
@@ -194,6 +196,7 @@ pub(crate) fn run(
         .driver(driver)
         .estimators(options.selection().request(options.robots.placements.len()))
         .ros2(options.ros2.map(Into::into))
+        .ros1(options.ros1.reach())
         .gazebo(options.gazebo())
         .page(page)
         .build()?;

@@ -16,12 +16,12 @@ use periplus_msgs::std_msgs::Header;
 use periplus_os::{Stopwatch, unix_ns};
 use periplus_params::Given;
 use periplus_ros2cli::teleop::{Keyboard, Pressed, SCREEN, TELEOP, TeleopParams, status};
-use periplus_session::LiveGraph;
 
 use crate::arguments;
 use crate::error::CliError;
 use crate::terminal::diagnostics;
 use terminal::RawTerminal;
+use crate::run_options::LiveNetworkOptions;
 
 /// Number of velocity lines after which the screen is printed again, as in `teleop_twist_keyboard`.
 const LINES_PER_SCREEN: u32 = 15;
@@ -65,6 +65,8 @@ pub(crate) struct TeleopOptions {
     /// Remap a topic or the node: `from:=to`
     #[arg(long = "remap", short = 'r', value_name = "FROM:=TO")]
     remaps: Vec<String>,
+    #[command(flatten)]
+    pub(crate) network: LiveNetworkOptions,
 }
 
 pub(crate) fn run(options: &TeleopOptions, ros: Vec<String>) -> Result<ExitCode, CliError> {
@@ -76,7 +78,7 @@ pub(crate) fn run(options: &TeleopOptions, ros: Vec<String>) -> Result<ExitCode,
              separate terminal, not from a launch file or a pipe",
         ));
     }
-    let live = LiveGraph::open(arguments)?;
+    let live = options.network.open(arguments)?;
     let mut driving = Driving::new(&live.graph, options)?;
     let terminal = RawTerminal::open()?;
     let outcome = driving.go(&live.graph, &terminal);

@@ -8,6 +8,7 @@ mod interface;
 mod lifecycle;
 mod node;
 mod param;
+mod ros1;
 mod service;
 mod tf;
 mod topic;
@@ -22,11 +23,12 @@ use periplus_graph::Graph;
 use periplus_loader::load_interfaces;
 use periplus_os::Machine;
 use periplus_resources::Host as _;
-use periplus_ros2cli::{Failure, InGraph, Outcome, Ros2Line, Session, Types};
+use periplus_ros2cli::{Failure, InGraph, Network, Outcome, Ros2Line, Session, Types};
 use periplus_session::stop;
 
 use crate::error::CliError;
 use crate::foreign_commands;
+use crate::run_options::Ros1Use;
 use crate::terminal;
 
 pub(crate) use action::ActionOptions;
@@ -40,6 +42,7 @@ pub(crate) use topic::TopicOptions;
 
 pub(crate) use common::{Common, seconds};
 use connection::NetworkConnection;
+use ros1::Ros1Connection;
 
 /// Joins the network and runs a verb.
 pub(crate) fn with_session(
@@ -47,20 +50,35 @@ pub(crate) fn with_session(
     verb: impl FnOnce(&mut Session<'_>) -> Outcome,
 ) -> Result<ExitCode, CliError> {
     let types = types(common)?;
+    if common.ros1.is_some_and(Ros1Use::applies) {
+        let mut connection = Ros1Connection::open().map_err(CliError::failed)?;
+        let outcome = run_verb(&connection, &types, common, verb);
+        tell(&connection.take_findings())?;
+        return end(outcome);
+    }
     let mut connection = NetworkConnection::open().map_err(CliError::failed)?;
+    let outcome = run_verb(&connection, &types, common, verb);
+    tell(&connection.take_findings())?;
+    end(outcome)
+}
+
+fn run_verb(
+    network: &dyn Network,
+    types: &Types,
+    common: &Common,
+    verb: impl FnOnce(&mut Session<'_>) -> Outcome,
+) -> Outcome {
     let stop = stop::on_signal();
     let mut out = io::BufWriter::new(io::stdout().lock());
-    let outcome = verb(&mut Session {
-        network: &connection,
-        types: &types,
+    verb(&mut Session {
+        network,
+        types,
         out: &mut out,
         talk: &mut anstream::stderr(),
         stop: &stop,
         json: common.json,
         spin_time: common.spin_time.map(Duration::from_secs_f64),
-    });
-    tell(&connection.take_findings())?;
-    end(outcome)
+    })
 }
 
 /// Built-in types and those of the user's packages; prints their findings.

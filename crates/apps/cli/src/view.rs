@@ -10,12 +10,13 @@ use periplus_dds::RemoteTopic;
 use periplus_graph::{Graph, NodeSettings};
 use periplus_os::{Stopwatch, sleep};
 use periplus_session::page::{Page, PageContext, PageError, browser};
-use periplus_session::{LiveGraph, stop};
+use periplus_session::stop;
 
 use crate::arguments;
 use crate::error::CliError;
 use crate::page::PageOptions;
 use crate::terminal::{complain, say};
+use crate::run_options::LiveNetworkOptions;
 
 /// Polling period.
 const POLL_PERIOD: Duration = Duration::from_millis(5);
@@ -54,6 +55,8 @@ pub(crate) struct ViewOptions {
     /// Folder to search for packages with meshes, before those of the environment; repeatable
     #[arg(long, value_name = "DIR")]
     resource_path: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(crate) network: LiveNetworkOptions,
 }
 
 pub(crate) fn run(options: &ViewOptions, ros: Vec<String>) -> Result<ExitCode, CliError> {
@@ -62,7 +65,7 @@ pub(crate) fn run(options: &ViewOptions, ros: Vec<String>) -> Result<ExitCode, C
         return replay(options);
     }
     let stop = stop::on_signal();
-    let mut live = LiveGraph::open(arguments)?;
+    let mut live = options.network.open(arguments)?;
     let page = options.open_page(&live.graph)?;
     let url = page.url();
     say(&format!("ROS 2 domain {}; page: {url} (Ctrl-C ends it)", live.domain_id));

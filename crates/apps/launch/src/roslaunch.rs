@@ -206,7 +206,14 @@ impl Loader<'_, '_> {
             "include" => self.include(element, scope, depth),
             "node" => self.node(element, scope),
             "machine" => {
-                self.left(element, "`<machine>` is ignored: everything runs on this machine");
+                let name = element.value("name").unwrap_or_default();
+                self.left(
+                    element,
+                    &format!(
+                        "`<machine name=\"{name}\">` is ignored: programs are not started on other machines; start \
+                         them there with `roslaunch`, and open this run to them with `--ros1=network`"
+                    ),
+                );
                 Ok(())
             }
             "test" => {

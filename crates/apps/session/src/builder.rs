@@ -14,7 +14,9 @@ use periplus_sim::{
 
 use crate::description::describe;
 use crate::error::RunError;
-use crate::network::{GazeboConnection, GazeboSettings, Ros2Connection, Ros2Reach};
+use crate::network::{
+    GazeboConnection, GazeboSettings, Ros1Connection, Ros1Reach, Ros1Value, Ros2Connection, Ros2Reach,
+};
 use crate::nodes::{EstimatorRequest, Estimators, RobotProfile};
 use crate::page::{Page, PageContext, PageSettings};
 use crate::session::{SessionParts, SimulationSession};
@@ -68,6 +70,8 @@ pub struct SessionBuilder {
     driver: Driver,
     estimators: Option<EstimatorRequest>,
     ros2: Option<Option<Ros2Reach>>,
+    ros1: Option<Ros1Reach>,
+    ros1_parameters: Vec<(String, Ros1Value)>,
     gazebo: Option<GazeboSettings>,
     page: Option<PageSettings>,
 }
@@ -91,6 +95,8 @@ impl SessionBuilder {
             driver: Driver::default(),
             estimators: None,
             ros2: None,
+            ros1: None,
+            ros1_parameters: Vec::new(),
             gazebo: None,
             page: None,
         }
@@ -175,6 +181,20 @@ impl SessionBuilder {
         self
     }
 
+    /// Connects to ROS 1: joins the master that `ROS_MASTER_URI` names, or starts one.
+    #[must_use]
+    pub fn ros1(mut self, reach: Option<Ros1Reach>) -> Self {
+        self.ros1 = reach;
+        self
+    }
+
+    /// Sets parameters of the ROS 1 parameter server, by full names, before anything else does.
+    #[must_use]
+    pub fn ros1_parameters(mut self, parameters: Vec<(String, Ros1Value)>) -> Self {
+        self.ros1_parameters = parameters;
+        self
+    }
+
     /// Connects to Gazebo Transport.
     #[must_use]
     pub fn gazebo(mut self, settings: Option<GazeboSettings>) -> Self {
@@ -222,11 +242,13 @@ impl SessionBuilder {
         terminal::print_findings(&warnings)?;
         let estimators = self.start_estimators(&simulation, request, profile.as_ref())?;
         let ros2 = self.connect_ros2(&simulation)?;
+        let ros1 = self.connect_ros1(&simulation)?;
         let gazebo = self.connect_gazebo(&simulation, &mut services)?;
         let page = self.open_page(&simulation, &mut services)?;
         Ok(SimulationSession::new(SessionParts {
             page,
             gazebo,
+            ros1,
             ros2,
             estimators,
             profile,
@@ -280,6 +302,14 @@ impl SessionBuilder {
         let joined = settings
             .map(|settings| GazeboConnection::join(simulation, services, settings, self.is_quiet));
         joined.transpose()
+    }
+
+    fn connect_ros1(&mut self, simulation: &Simulation) -> Result<Option<Ros1Connection>, RunError> {
+        let parameters = std::mem::take(&mut self.ros1_parameters);
+        let join = |reach| {
+            Ros1Connection::join(simulation.graph(), reach, parameters, self.is_quiet)
+        };
+        self.ros1.map(join).transpose()
     }
 
     fn connect_ros2(&self, simulation: &Simulation) -> Result<Ros2Connection, RunError> {

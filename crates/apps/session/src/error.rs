@@ -10,7 +10,7 @@ use periplus_graph::GraphError;
 use periplus_sim::{Diverged, DriveError, RecordError};
 
 use crate::files::FileError;
-use crate::network::{DdsError, GzTransportError};
+use crate::network::{DdsError, GzTransportError, Ros1Error};
 use crate::page::PageError;
 
 /// Reasons that a session or one of its parts cannot start.
@@ -44,6 +44,8 @@ pub enum RunError {
     Zenoh(periplus_rmw_zenoh::ZenohError),
     /// This build has no Zenoh.
     WithoutZenoh,
+    /// The ROS 1 network cannot be joined.
+    Ros1(Ros1Error),
     /// The Gazebo Transport network cannot be joined.
     Gazebo(GzTransportError),
     /// The page cannot be opened.
@@ -98,6 +100,7 @@ impl Display for RunError {
                 "this periplus was built without Zenoh, which needs 200 more crates; build one \
                  with `cargo build --release --features zenoh`",
             ),
+            Self::Ros1(error) => error.fmt(f),
             Self::Gazebo(error) => error.fmt(f),
             Self::Page(error) => error.fmt(f),
             Self::Node { name, error } => write!(f, "{name} cannot run: {error}"),
@@ -128,6 +131,7 @@ from! {
     Diverged => Diverged,
     GraphError => Graph,
     DdsError => Ros2,
+    Ros1Error => Ros1,
     GzTransportError => Gazebo,
     PageError => Page,
     FileError => File,

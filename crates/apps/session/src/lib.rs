@@ -1,7 +1,7 @@
 //! Running simulations and live graphs, as the commands of `periplus` compose them.
 //!
 //! A [`SimulationSession`] is a simulated world with its recording, estimator nodes, networks (ROS
-//! 2 on DDS or Zenoh, Gazebo Transport) and page. [`SessionBuilder`] composes it, a [`SessionTask`]
+//! 2 on DDS or Zenoh, ROS 1, Gazebo Transport) and page. [`SessionBuilder`] composes it, a [`SessionTask`]
 //! works between its steps, and a [`RunReport`] sums it up. A [`LiveGraph`] is a graph without a
 //! simulation on ROS 2. Progress and findings are printed to stderr.
 
@@ -54,7 +54,9 @@ pub use description::with_version;
 pub use error::RunError;
 #[cfg(not(target_family = "wasm"))]
 pub use live::{LiveGraph, NodeMonitor, PollSleep};
-pub use network::{GazeboSettings, Ros2Reach};
+#[cfg(not(target_family = "wasm"))]
+pub use network::join_ros1;
+pub use network::{GazeboSettings, Ros1Reach, Ros1Value, Ros2Reach};
 pub use page::{Page, PageContext, PageError, PageHub, PageSettings};
 #[cfg(not(target_family = "wasm"))]
 pub use periplus_gz_transport::DiscoveryReach as GazeboReach;

@@ -6,12 +6,14 @@ use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use periplus_dds::{DdsTransport, Settings};
+use periplus_dds::{DdsTransport, DiscoveryRange, Settings};
 use periplus_diagnostics::Diagnostics;
 use periplus_graph::{Arguments, Graph, GraphError, Mailbox, Node, Qos};
 use periplus_msgs::rosgraph_msgs::Clock;
 use periplus_os::{Machine, sleep, unix_ns};
+use periplus_ros1::{MasterUse, Ros1Reach, Ros1Transport};
 
+use crate::Ros1Value;
 use crate::error::RunError;
 use crate::terminal;
 
@@ -39,6 +41,8 @@ pub struct LiveGraph {
     // Declared first, so that the network is left before the graph is dropped.
     /// Connection to ROS 2.
     pub wire: DdsTransport,
+    /// Connection to ROS 1, if the program joined it.
+    pub ros1: Option<Ros1Transport>,
     /// The graph.
     pub graph: Graph,
     /// ROS 2 domain.
@@ -54,14 +58,48 @@ impl LiveGraph {
     pub fn open(arguments: Arguments) -> Result<Self, RunError> {
         let (settings, findings) = Settings::from_environment(&Machine);
         print(&findings);
+        Self::with(&settings, arguments)
+    }
+
+    fn with(settings: &Settings, arguments: Arguments) -> Result<Self, RunError> {
         let graph = Graph::live();
         graph.set_simulated_time(false);
         graph.advance_to(unix_ns());
         graph.set_arguments(arguments);
         let attached =
-            DdsTransport::open(&settings).and_then(|wire| wire.attach(&graph).map(|()| wire));
+            DdsTransport::open(settings).and_then(|wire| wire.attach(&graph).map(|()| wire));
         let wire = attached.map_err(RunError::Join)?;
-        Ok(Self { wire, graph, domain_id: settings.domain_id, clock: None })
+        Ok(Self { wire, ros1: None, graph, domain_id: settings.domain_id, clock: None })
+    }
+
+    /// Joins ROS 1 at the master that `ROS_MASTER_URI` names, in place of ROS 2.
+    ///
+    /// # Errors
+    /// When no master answers.
+    pub fn open_ros1(arguments: Arguments) -> Result<Self, RunError> {
+        let settings = Settings { range: DiscoveryRange::Off, ..Settings::default() };
+        let mut live = Self::with(&settings, arguments)?;
+        let (settings, findings) =
+            periplus_ros1::Settings::from_environment(&Machine, Ros1Reach::Machine);
+        print(&findings);
+        let wire = Ros1Transport::open(&settings, MasterUse::Join)?;
+        wire.attach(&live.graph)?;
+        live.ros1 = Some(wire);
+        Ok(live)
+    }
+
+    /// Joins ROS 1, too, and sets parameters of its server by full names; starts a master if none answers.
+    ///
+    /// # Errors
+    /// When no master answers and none can be started.
+    pub fn join_ros1(
+        &mut self,
+        reach: Ros1Reach,
+        parameters: Vec<(String, Ros1Value)>,
+        is_quiet: bool,
+    ) -> Result<(), RunError> {
+        self.ros1 = Some(crate::join_ros1(&self.graph, reach, parameters, is_quiet)?);
+        Ok(())
     }
 
     /// Follows `/clock` from now on; time does not advance until `/clock` has a publisher.
@@ -108,6 +146,9 @@ impl LiveGraph {
     /// Prints the findings since the last call.
     pub fn print_findings(&self) {
         print(&self.wire.take_findings());
+        if let Some(ros1) = &self.ros1 {
+            print(&ros1.take_findings());
+        }
         print(&self.graph.take_findings());
     }
 
@@ -155,7 +196,8 @@ impl LiveGraph {
 
     /// Flushes published messages within a timeout; returns false if some were not acknowledged.
     pub fn end(&self, timeout: Duration) -> bool {
-        let is_taken = self.wire.flush(timeout);
+        let is_sent = self.ros1.as_ref().is_none_or(|ros1| ros1.flush(timeout));
+        let is_taken = self.wire.flush(timeout) && is_sent;
         self.print_findings();
         is_taken
     }

@@ -13,7 +13,7 @@ use periplus_sim::{
 };
 
 use crate::error::RunError;
-use crate::network::{GazeboConnection, Ros2Connection};
+use crate::network::{GazeboConnection, Ros1Connection, Ros2Connection};
 use crate::nodes::{Estimators, Navigation, RobotProfile};
 use crate::page::Page;
 use crate::progress::ProgressLine;
@@ -72,6 +72,7 @@ pub enum RunEnd {
 pub(crate) struct SessionParts {
     pub(crate) page: Option<Page>,
     pub(crate) gazebo: Option<GazeboConnection>,
+    pub(crate) ros1: Option<Ros1Connection>,
     pub(crate) ros2: Ros2Connection,
     pub(crate) estimators: Estimators,
     /// Detected topics and frames of the robot.
@@ -181,7 +182,7 @@ impl SimulationSession {
         let (line, task) = (RefCell::new(line), RefCell::new(task));
         #[cfg(not(target_family = "wasm"))]
         let page = &parts.page;
-        let (recorder, ros2) = (&parts.recorder, &mut parts.ros2);
+        let (recorder, ros1, ros2) = (&parts.recorder, &mut parts.ros1, &mut parts.ros2);
         let mut watch = RecordingWatch::default();
         let stopwatch = Stopwatch::start();
         let outcome = run.go_with(
@@ -194,6 +195,11 @@ impl SimulationSession {
                 let mut line = line.borrow_mut();
                 line.show(progress);
                 watch.check(recorder.as_ref(), progress, &line);
+                if let Some(ros1) = ros1
+                    && ros1.is_due(progress.wall)
+                {
+                    line.aside(|| ros1.print_findings());
+                }
                 if ros2.is_due(progress.wall) {
                     line.aside(|| ros2.print_findings());
                     #[cfg(not(target_family = "wasm"))]
@@ -229,6 +235,9 @@ impl SimulationSession {
         let parts = &mut self.parts;
         if let Some(gazebo) = parts.gazebo.take() {
             gazebo.print_findings()?;
+        }
+        if let Some(ros1) = parts.ros1.take() {
+            ros1.print_findings()?;
         }
         parts.ros2.print_findings()?;
         if !parts.is_quiet {

@@ -19,6 +19,7 @@
 mod client;
 mod codec;
 mod error;
+mod fuzz;
 mod link;
 mod master;
 mod names;
@@ -33,6 +34,8 @@ mod xmlrpc;
 
 pub use client::{MasterClient, NodesByName, SystemState};
 pub use error::Ros1Error;
+#[doc(hidden)]
+pub use fuzz::{fuzz_http, fuzz_tcpros};
 pub use master::{Master, MasterState, Notification};
 pub use names::{
     Ros1Type, message_definition, ros1_type, ros2_service_type, ros2_type, service_definition,

@@ -156,7 +156,8 @@ impl Handler for NodeApi {
             ("shutdown", &[caller, ..]) => {
                 let why = texts.get(1).copied().unwrap_or_default();
                 self.events.shutdown(&self.name, &format!("{caller}: {why}"));
-                done(Value::Int(0))
+                // No result without an effect.
+                wrong(format!("{} ends with its program", self.name))
             }
             // Nodes of ROS 1 read parameters when they start.
             ("paramUpdate", _) => done(Value::Int(0)),

@@ -17,6 +17,8 @@ use crate::tcpros::Publication;
 pub(crate) struct Outgoing {
     pub(crate) publication: Arc<Publication>,
     codec: Codec,
+    /// True if a message begins with a header, whose sequence number the publisher of ROS 1 counts.
+    has_header: bool,
     /// Queue depth; the oldest message is dropped when it is exceeded.
     depth: usize,
     queue: Mutex<Queue>,
@@ -29,6 +31,8 @@ struct Queue {
     /// True if the thread is scheduled for it.
     is_scheduled: bool,
     dropped: u64,
+    /// Sequence number of the next message.
+    number: u32,
 }
 
 impl Outgoing {
@@ -39,7 +43,8 @@ impl Outgoing {
         lane: &Lane,
     ) -> Arc<Self> {
         let (depth, queue, lane) = (depth.max(1), Mutex::default(), lane.clone());
-        Arc::new(Self { publication, codec, depth, queue, lane })
+        let has_header = has_header(&publication.of.definition);
+        Arc::new(Self { publication, codec, has_header, depth, queue, lane })
     }
 
     /// Number of messages dropped, here or for a slow subscriber.
@@ -59,6 +64,11 @@ impl Outgoing {
                 && let Ok(length) = u32::try_from(frame.len() - 4)
             {
                 frame[..4].copy_from_slice(&length.to_le_bytes());
+                if self.has_header && frame.len() >= 8 {
+                    let mut queue = lock(&self.queue);
+                    frame[4..8].copy_from_slice(&queue.number.to_le_bytes());
+                    queue.number = queue.number.wrapping_add(1);
+                }
                 self.publication.send(&Arc::new(frame));
             }
         }
@@ -69,6 +79,12 @@ impl Outgoing {
             self.lane.clone().schedule(self);
         }
     }
+}
+
+/// True if the first field of a definition is a header.
+fn has_header(definition: &str) -> bool {
+    let first = definition.lines().find(|line| !line.contains('='));
+    first.is_some_and(|line| line.starts_with("std_msgs/Header "))
 }
 
 impl Way for Outgoing {

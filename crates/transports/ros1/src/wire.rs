@@ -65,8 +65,6 @@ pub(crate) struct Shared {
     is_attached: AtomicBool,
     /// Published topics, for [`Ros1Transport::flush`].
     publications: Mutex<Vec<Weak<Publication>>>,
-    /// Set when a node was asked to end.
-    shutdown: Mutex<Option<String>>,
 }
 
 impl Shared {
@@ -117,7 +115,11 @@ impl NodeEvents for Shared {
     }
 
     fn shutdown(&self, node: &str, why: &str) {
-        *lock(&self.shutdown) = Some(format!("{node}: {why}"));
+        let message = format!("`{node}` was asked to end by {why}");
+        self.report(
+            Diagnostic::warning("ros1-shutdown", message)
+                .help("it is a part of this program and goes on; end the program with Ctrl-C"),
+        );
     }
 
     fn subscriptions(&self, node: &str) -> Vec<SubscriptionReport> {
@@ -192,10 +194,14 @@ impl Ros1Transport {
             .map_err(|why| Ros1Error::Master { uri: self.client.uri().to_owned(), why })
     }
 
-    /// Why a node of this program was asked to end since the last call, as `rosnode kill` asks.
+    /// Names of the subscribers that are connected to a topic which nodes of this program publish; none if they do
+    /// not publish it.
     #[must_use]
-    pub fn take_shutdown(&self) -> Option<String> {
-        lock(&self.shared.shutdown).take()
+    pub fn subscribers_of(&self, topic: &str) -> Option<BTreeSet<String>> {
+        let all = lock(&self.shared.publications);
+        let its = all.iter().filter_map(Weak::upgrade).filter(|one| one.topic == topic);
+        its.map(|one| one.report().1.into_iter().map(|link| link.peer).collect())
+            .reduce(|all: BTreeSet<String>, more| &all | &more)
     }
 
     /// Waits until everything published so far was sent, at most for the timeout; true if it was.

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Subcommand, ValueEnum};
 use periplus_bags::Style;
 use periplus_bags::files::{ChunkPacking, Packing, PackingMode, Storage};
+use crate::run_options::LiveNetworkOptions;
 
 /// Record, play, convert, cut, check and repair bags
 ///
@@ -122,6 +123,8 @@ pub(crate) struct PlayOptions {
     /// Delay before the start [s]
     #[arg(long, short, default_value = "0", value_name = "SECONDS", value_parser = seconds)]
     pub(crate) delay: i64,
+    #[command(flatten)]
+    pub(crate) network: LiveNetworkOptions,
 }
 
 /// Record topics of ROS 2
@@ -155,6 +158,8 @@ pub(crate) struct RecordOptions {
     pub(crate) use_sim_time: bool,
     #[command(flatten)]
     pub(crate) write: WriteOptions,
+    #[command(flatten)]
+    pub(crate) network: LiveNetworkOptions,
 }
 
 /// Rewrite the metadata.yaml of a folder from its files

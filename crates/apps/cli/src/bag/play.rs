@@ -30,7 +30,7 @@ pub(super) fn run(options: &PlayOptions) -> Result<ExitCode, CliError> {
     if let Some(name) = select.unknown(std::slice::from_ref(&bag)).next() {
         return Err(CliError::usage(format!("the recording has no topic `{name}`")));
     }
-    let live = LiveGraph::open(Arguments::default())?;
+    let live = options.network.open(Arguments::default())?;
     let settings = options.settings(&select, &bag);
     let stop = stop::on_signal();
     let player = Player::new(bag, &live.graph, settings);

@@ -8,12 +8,13 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use periplus_bags::files::{BagError, RecordSettings, Recorder, Storage, WriteSettings};
-use periplus_dds::{Remote, RemoteTopic};
 use periplus_graph::{
     Arguments, Durability, Node, NodeSettings, Policy, Qos, RawMailbox, Reliability,
 };
+use periplus_msgs::TypeRegistry;
 use periplus_os::{Machine, sleep, unix_ns};
 use periplus_resources::Host as _;
+use periplus_ros1::ros2_type;
 use periplus_session::{LiveGraph, stop, with_version};
 
 use super::options::RecordOptions;
@@ -32,7 +33,7 @@ pub(super) fn run(options: &RecordOptions) -> Result<ExitCode, CliError> {
             "name topics, or record all with --all; see `periplus bag record --help`",
         ));
     }
-    let mut live = LiveGraph::open(Arguments::default())?;
+    let mut live = options.network.open(Arguments::default())?;
     record(options, &mut live)?;
     Ok(ExitCode::SUCCESS)
 }
@@ -65,7 +66,7 @@ fn record(options: &RecordOptions, live: &mut LiveGraph) -> Result<(), BagError>
     while !stop.load(Ordering::Relaxed) {
         live.spin_once();
         if ticks % (POLL_PERIOD.as_millis() / CLOCK_POLL_PERIOD.as_millis()) == 0 {
-            subscriptions.follow(options, &live.wire.remote())?;
+            subscriptions.follow(options, &offered_topics(live))?;
             recorder.keep()?;
             live.print_findings();
         }
@@ -86,6 +87,39 @@ fn record(options: &RecordOptions, live: &mut LiveGraph) -> Result<(), BagError>
     Ok(())
 }
 
+/// A topic with publishers on the network.
+struct OfferedTopic {
+    name: String,
+    type_name: String,
+    type_hash: Option<String>,
+    /// QoS of its publishers.
+    qos: Vec<Qos>,
+}
+
+/// Topics with publishers on ROS 2, or on ROS 1.
+fn offered_topics(live: &LiveGraph) -> Vec<OfferedTopic> {
+    let Some(ros1) = &live.ros1 else {
+        let topics = live.wire.remote().topics.into_iter();
+        let offered = topics.filter(|topic| !topic.publishers.is_empty()).filter_map(|topic| {
+            Some(OfferedTopic {
+                type_name: topic.type_names.first()?.clone(),
+                type_hash: topic.publishers.iter().find_map(|one| one.type_hash.clone()),
+                qos: topic.publishers.iter().map(|one| one.qos).collect(),
+                name: topic.name,
+            })
+        });
+        return offered.collect();
+    };
+    // A master that does not answer has no new topics.
+    let state = ros1.client().system_state().unwrap_or_default();
+    let offered = state.publishers.into_iter().filter_map(|(name, _)| {
+        let type_name = ros2_type(state.topic_types.get(&name)?)?;
+        let type_hash = TypeRegistry::builtin().hash(&type_name);
+        Some(OfferedTopic { name, type_name, type_hash, qos: vec![Qos::reliable(100)] })
+    });
+    offered.collect()
+}
+
 /// QoS of the publishers of each topic, from discovery.
 #[derive(Clone, Default)]
 struct PublisherQos(Arc<Mutex<BTreeMap<String, Vec<Qos>>>>);
@@ -96,8 +130,8 @@ impl PublisherQos {
         offers.get(topic).cloned().unwrap_or_default()
     }
 
-    fn note(&self, topic: &RemoteTopic) {
-        let offered = topic.publishers.iter().map(|one| one.qos).collect();
+    fn note(&self, topic: &OfferedTopic) {
+        let offered = topic.qos.clone();
         let mut offers = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         offers.insert(topic.name.clone(), offered);
     }
@@ -114,22 +148,26 @@ struct RecorderSubscriptions {
 impl RecorderSubscriptions {
     /// Subscribes to selected topics that are new, and again when a publisher appears that offers
     /// less than the requested QoS.
-    fn follow(&mut self, options: &RecordOptions, remote: &Remote) -> Result<(), BagError> {
-        for topic in &remote.topics {
-            let Some(type_name) = topic.type_names.first() else { continue };
-            if topic.publishers.is_empty() || !options.wants(&topic.name) {
+    fn follow(
+        &mut self,
+        options: &RecordOptions,
+        offered: &[OfferedTopic],
+    ) -> Result<(), BagError> {
+        for topic in offered {
+            let type_name = &topic.type_name;
+            if !options.wants(&topic.name) {
                 continue;
             }
             // Noted before the subscription, because its first message needs it.
             self.offers.note(topic);
             let before = self.mailboxes.get(&topic.name).map(|(asked, _)| *asked);
             let is_heard = |asked: Qos| {
-                topic.publishers.iter().all(|one| one.qos.incompatible_policies(&asked).is_empty())
+                topic.qos.iter().all(|offer| offer.incompatible_policies(&asked).is_empty())
             };
             if before.is_some_and(is_heard) {
                 continue;
             }
-            let hash = topic.publishers.iter().find_map(|one| one.type_hash.as_deref());
+            let hash = topic.type_hash.as_deref();
             let qos = request(topic);
             if before == Some(qos) {
                 // Other incompatibilities cannot be solved by a weaker request.
@@ -162,8 +200,8 @@ impl RecorderSubscriptions {
 }
 
 /// Strongest QoS that all publishers of a topic offer.
-fn request(topic: &RemoteTopic) -> Qos {
-    let offers = || topic.publishers.iter().map(|one| one.qos);
+fn request(topic: &OfferedTopic) -> Qos {
+    let offers = || topic.qos.iter();
     let mut qos = Qos::reliable(100);
     if offers().any(|offer| offer.reliability == Reliability::BestEffort) {
         qos = qos.with_reliability(Reliability::BestEffort);

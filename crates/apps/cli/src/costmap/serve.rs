@@ -8,12 +8,13 @@ use std::time::Duration;
 use clap::Args;
 use periplus_costmap::Nav2Release;
 use periplus_session::nodes::{CostmapRequest, CostmapSource, Costmaps, FloorPoint};
-use periplus_session::{LiveGraph, NodeMonitor, PollSleep, stop};
+use periplus_session::{NodeMonitor, PollSleep, stop};
 
 use super::floor_point;
 use crate::arguments;
 use crate::error::CliError;
 use crate::terminal::say;
+use crate::run_options::LiveNetworkOptions;
 
 /// Polling period.
 const POLL_SLEEP: PollSleep = PollSleep::fixed(Duration::from_millis(5));
@@ -51,13 +52,15 @@ pub(crate) struct CostmapServeOptions {
     /// Remap a topic or node: `from:=to`
     #[arg(long = "remap", short = 'r', value_name = "FROM:=TO")]
     remaps: Vec<String>,
+    #[command(flatten)]
+    pub(crate) network: LiveNetworkOptions,
 }
 
 pub(crate) fn run(options: &CostmapServeOptions, ros: Vec<String>) -> Result<ExitCode, CliError> {
     let remaps = options.remaps.iter().flat_map(|rule| ["-r".to_owned(), rule.clone()]);
     let arguments = arguments::read(remaps.chain(ros).collect())?;
     let stop = stop::on_signal();
-    let mut live = LiveGraph::open(arguments)?;
+    let mut live = options.network.open(arguments)?;
     let costmaps = Costmaps::new(&live.graph, options.request())?;
     live.print_start_findings()?;
     let nodes = costmaps.nodes();

@@ -1,6 +1,6 @@
 //! ROS 1 commands.
 
-use super::answers::{elsewhere, lacking, needless, with_packages};
+use super::answers::{elsewhere, lacking, with_packages};
 use super::programs::{self, Dialect};
 use super::ros2::{created, without};
 use super::{Reading, become_words};
@@ -31,7 +31,7 @@ pub(super) fn read(program: &str, rest: &[String]) -> Option<Reading> {
             _ => elsewhere(format!("`{program}` takes show, list, package or packages")),
         },
         "roswtf" => become_words(&["doctor"], Vec::new()),
-        "roscore" | "rosmaster" => needless("no master is needed: nodes discover each other"),
+        "roscore" | "rosmaster" => master(rest),
         "rospack" | "rosstack" | "roscd" | "rosls" | "rosed" => {
             with_packages("packages are found by their package.xml; found here")
         }
@@ -59,6 +59,12 @@ fn launch(rest: &[String]) -> Reading {
             _ if word.starts_with('-') => dropped.push(word.clone()),
             _ => words.push(word.clone()),
         }
+    }
+    // At full speed programs of ROS 1 could not keep pace.
+    let is_free = words.iter().any(|word| word == "--duration" || word == "--print");
+    let has_choice = words.iter().any(|word| word.starts_with("--ros1") || word.starts_with("--rtf"));
+    if !is_free && !has_choice {
+        words.push("--ros1".to_owned());
     }
     without(become_words(&["launch"], words), &dropped)
 }
@@ -95,73 +101,67 @@ fn topic(verb: &str, rest: &[String]) -> Reading {
     }
     match verb {
         "list" | "echo" | "hz" | "bw" | "pub" | "type" | "find" | "info" | "delay" => {
-            without(become_words(&["topic", verb], words), &dropped)
+            without(on_ros1(&["topic", verb], words), &dropped)
         }
         _ => elsewhere("`rostopic` takes bw, delay, echo, find, hz, info, list, pub or type"),
     }
+}
+
+/// An own verb that uses ROS 1 if a master answers.
+fn on_ros1(ours: &[&str], rest: Vec<String>) -> Reading {
+    let words = ours.iter().map(|word| (*word).to_owned());
+    let flag = ["--ros1=auto".to_owned()];
+    Reading::Words { words: words.chain(flag).chain(rest).collect(), notes: Vec::new() }
+}
+
+fn master(rest: &[String]) -> Reading {
+    let (mut words, mut dropped) = (Vec::new(), Vec::new());
+    let mut rest = rest.iter();
+    while let Some(word) = rest.next() {
+        match word.as_str() {
+            "-p" | "--port" => {
+                words.push("--port".to_owned());
+                words.extend(rest.next().cloned());
+            }
+            "-w" | "--numworkers" | "-t" | "--timeout" => {
+                dropped.push(word.clone());
+                dropped.extend(rest.next().cloned());
+            }
+            "--core" => {}
+            _ => dropped.push(word.clone()),
+        }
+    }
+    without(become_words(&["ros1", "master"], words), &dropped)
 }
 
 fn node(verb: &str, rest: &[String]) -> Reading {
     match verb {
         "list" | "info" => {
             let known = rest.iter().filter(|word| !word.starts_with('-')).cloned();
-            become_words(&["node", verb], known.collect())
+            on_ros1(&["node", verb], known.collect())
         }
-        "kill" => lacking("rosnode kill", "end the program where it runs, with Ctrl-C"),
-        "ping" | "machine" | "cleanup" => lacking(
-            &format!("rosnode {verb}"),
-            "nodes that ended disappear automatically: `periplus node list`",
-        ),
-        _ => elsewhere("`rosnode` takes list or info"),
+        "kill" | "ping" | "machine" | "cleanup" => {
+            become_words(&["ros1", "node", verb], rest.to_vec())
+        }
+        _ => elsewhere("`rosnode` takes cleanup, info, kill, list, machine or ping"),
     }
 }
 
 fn service(verb: &str, rest: &[String]) -> Reading {
     match (verb, rest) {
-        ("call", [name]) => {
-            let call = [name.clone(), "std_srvs/srv/Empty".to_owned()];
-            become_words(&["service", "call"], call.to_vec())
-                .noting("a call without values has the type std_srvs/srv/Empty")
-        }
-        ("call", [name, ..]) => elsewhere(format!(
-            "a call needs the type of the service: `periplus service type {name}` prints it, then \
-             `periplus service call {name} TYPE VALUES`"
-        )),
-        ("list" | "type" | "info" | "find", _) => become_words(&["service", verb], rest.to_vec()),
+        ("call", _) => become_words(&["ros1", "call"], rest.to_vec()),
+        ("list" | "type" | "info" | "find", _) => on_ros1(&["service", verb], rest.to_vec()),
         _ => elsewhere("`rosservice` takes call, find, info, list or type"),
     }
 }
 
-/// ROS 1 has one parameter server; here each parameter belongs to a node: `/amcl/min_particles`.
+/// The parameter server is that of the master.
 fn parameter(verb: &str, rest: &[String]) -> Reading {
-    let split = |name: &String| {
-        let name = format!("/{}", name.trim_start_matches('/'));
-        let (node, parameter) = name.rsplit_once('/').unwrap_or(("", &name));
-        (!node.is_empty()).then(|| [node.to_owned(), parameter.to_owned()])
-    };
-    match (verb, rest) {
-        ("list", _) => {
-            let known = rest.iter().filter(|word| !word.starts_with('-')).cloned();
-            become_words(&["param", "list"], known.collect())
+    match verb {
+        "list" | "get" | "set" | "delete" | "dump" | "load" => {
+            let known = rest.iter().filter(|word| !matches!(word.as_str(), "-p" | "-v"));
+            become_words(&["ros1", "param", verb], known.cloned().collect())
         }
-        ("get" | "delete", [name]) | ("set", [name, _]) => match split(name) {
-            Some(words) => {
-                let rest = words.into_iter().chain(rest.get(1).cloned()).collect();
-                become_words(&["param", verb], rest)
-            }
-            None => elsewhere(format!(
-                "parameters belong to nodes: `periplus param {verb} NODE {}`; `periplus param list` \
-                 lists them",
-                name.trim_start_matches('/')
-            )),
-        },
-        ("load", [file, node]) => {
-            become_words(&["param", "load"], vec![node.clone(), file.clone()])
-        }
-        ("dump" | "load", _) => elsewhere(format!(
-            "parameters belong to nodes: `periplus param {verb} NODE{}`",
-            if verb == "load" { " FILE" } else { "" }
-        )),
         _ => elsewhere("`rosparam` takes delete, dump, get, list, load or set"),
     }
 }
@@ -194,7 +194,11 @@ fn bag(verb: &str, rest: &[String]) -> Reading {
     }
     match verb {
         "record" | "play" | "info" | "check" | "reindex" => {
-            without(become_words(&["bag", verb], clock_last(words)), &dropped)
+            let ours = match verb {
+                "record" | "play" => on_ros1(&["bag", verb], clock_last(words)),
+                _ => become_words(&["bag", verb], words),
+            };
+            without(ours, &dropped)
         }
         "compress" | "decompress" | "filter" | "fix" => lacking(
             &format!("rosbag {verb}"),

@@ -3,6 +3,7 @@
 mod lockstep;
 mod log;
 mod network;
+mod parameter_server;
 mod simulated;
 mod watch;
 mod world;
@@ -22,7 +23,7 @@ use serde_json::json;
 use crate::error::CliError;
 use crate::options::SearchOptions;
 use crate::page::PageOptions;
-use crate::run_options::{Factor, Reach, TopicSelection, factor, positive};
+use crate::run_options::{Factor, Reach, Ros1Options, TopicSelection, factor, positive};
 use crate::{own_command, terminal};
 
 /// Options of running a plan.
@@ -46,6 +47,8 @@ pub(crate) struct PlayOptions {
     /// ROS_AUTOMATIC_DISCOVERY_RANGE, at full speed `off`]
     #[arg(long, value_enum, value_name = "off|loopback|network|zenoh")]
     ros2: Option<Reach>,
+    #[command(flatten)]
+    ros1: Ros1Options,
     #[command(flatten)]
     page: PageOptions,
     /// Show no page when the launch file starts RViz or a window of Gazebo
@@ -119,6 +122,7 @@ fn runner(launched: &Launched, options: &PlayOptions, search: &SearchOptions) ->
         search: terminal::search(&search.resource_path),
         dialect: launched.dialect,
         is_wired: false,
+        has_ros1_master: options.ros1.reach().is_some(),
         is_paced: !options.is_free() && !matches!(options.rtf, Some(Factor::Max)),
         guarding_command: own_command::own_command().to_vec(),
         tools: launched.tools.clone(),

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 use std::time::Duration;
 
 use periplus_session::nodes::Localization;
-use periplus_session::{LiveGraph, PollSleep, stop};
+use periplus_session::{PollSleep, stop};
 
 use super::LocalizeOptions;
 use crate::arguments;
@@ -23,7 +23,7 @@ pub(super) fn run(options: &LocalizeOptions, ros: Vec<String>) -> Result<ExitCod
     let arguments = arguments::read(ros)?;
     let stop = stop::on_signal();
     let is_simulated = values.flag("use_sim_time").unwrap_or_default();
-    let mut live = LiveGraph::open(arguments)?;
+    let mut live = options.network.open(arguments)?;
     let localization = Localization::new(&live.graph, options.map.as_deref(), values)?;
     live.print_start_findings()?;
     let monitor = live.monitor(localization.amcl().node(), is_simulated)?;

@@ -12,7 +12,7 @@ use periplus_session::nodes::{ParameterFile, amcl_parameters};
 
 use crate::error::CliError;
 use crate::log::LogOptions;
-use crate::run_options::finite_numbers;
+use crate::run_options::{LiveNetworkOptions, finite_numbers};
 use crate::terminal;
 
 /// Localize a robot on a known map, from a log of laser scans or live
@@ -55,6 +55,8 @@ pub(crate) struct LocalizeOptions {
     /// Print only errors
     #[arg(long, short)]
     pub(crate) quiet: bool,
+    #[command(flatten)]
+    pub(crate) network: LiveNetworkOptions,
 }
 
 fn word(word: &str) -> Result<(String, String), String> {

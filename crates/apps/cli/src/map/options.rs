@@ -6,6 +6,7 @@ use clap::{Args, Subcommand};
 use periplus_maps::Distro;
 
 use crate::verbs::seconds;
+use crate::run_options::{LiveNetworkOptions, Ros1Use};
 
 /// Save, serve, inspect, convert and compare maps
 #[derive(Debug, Subcommand)]
@@ -32,6 +33,16 @@ pub(crate) struct SaveOptions {
     /// Time to wait for the map [s] [default: 2; for ROS 1 unlimited]
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub(crate) timeout: Option<f64>,
+    /// Use ROS 1 in place of ROS 2, with the master at ROS_MASTER_URI; `--ros1=auto` only if a master answers there
+    #[arg(
+        long,
+        value_enum,
+        value_name = "on|auto",
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = "on"
+    )]
+    pub(crate) ros1: Option<Ros1Use>,
     /// Arguments of the saver: `-t TOPIC -f NAME --occ SHARE --free SHARE --fmt FORMAT --mode MODE`
     #[arg(trailing_var_arg = true, allow_hyphen_values = true, value_name = "WORD")]
     pub(crate) words: Vec<String>,
@@ -64,6 +75,8 @@ pub(crate) struct ServeOptions {
     /// Hidden option of tutorials that mean `map save -f`
     #[arg(short = 'f', value_name = "NAME", hide = true)]
     pub(crate) file: Option<String>,
+    #[command(flatten)]
+    pub(crate) network: LiveNetworkOptions,
 }
 
 /// Show size, origin, and the shares of free, occupied and unknown cells of a map

@@ -8,7 +8,7 @@ use std::time::Duration;
 use periplus_graph::NodeSettings;
 use periplus_nav_nodes::map_server::{MapServer, MapServerParams};
 use periplus_os::Machine;
-use periplus_session::{LiveGraph, PollSleep, stop};
+use periplus_session::{PollSleep, stop};
 
 use super::options::{SaveOptions, ServeOptions};
 use crate::arguments;
@@ -25,12 +25,12 @@ pub(super) fn run(options: &ServeOptions, ros: Vec<String>) -> Result<ExitCode, 
     if let Some(name) = &options.file {
         say(&format!("`-f` saves a map; running `periplus map save -f {name}`"));
         let words = vec!["-f".to_owned(), name.clone()];
-        return super::save(&SaveOptions { distro: options.distro, timeout: None, words }, &ros);
+        return super::save(&SaveOptions { distro: options.distro, timeout: None, ros1: options.network.choice(), words }, &ros);
     }
     let remaps = options.remaps.iter().flat_map(|rule| ["-r".to_owned(), rule.clone()]);
     let arguments = arguments::read(remaps.chain(ros).collect())?;
     let stop = stop::on_signal();
-    let mut live = LiveGraph::open(arguments)?;
+    let mut live = options.network.open(arguments)?;
     let node = live.graph.node(NodeSettings::new("map_server"))?;
     let server = MapServer::new(node, options.params(), options.distro, Arc::new(Machine))?;
     live.print_start_findings()?;

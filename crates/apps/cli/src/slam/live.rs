@@ -5,7 +5,7 @@ use std::process::ExitCode;
 use std::time::Duration;
 
 use periplus_session::nodes::{MappingNode, MappingRequest, MappingSource, slam_parameters};
-use periplus_session::{LiveGraph, PollSleep, stop};
+use periplus_session::{PollSleep, stop};
 
 use super::options::SlamOptions;
 use crate::arguments;
@@ -27,7 +27,7 @@ pub(super) fn run(options: &SlamOptions, ros: Vec<String>) -> Result<ExitCode, C
         .map_or(values.flag("use_sim_time"), |value| Some(value.bool_value))
         .unwrap_or(false);
     let stop = stop::on_signal();
-    let mut live = LiveGraph::open(arguments)?;
+    let mut live = options.live.network.open(arguments)?;
     let out = Some(options.out.clone()).filter(|out| !out.as_os_str().is_empty());
     let request = MappingRequest { source: MappingSource::Values(program, values), out };
     let ending = if request.out.is_some() { " and writes the map" } else { "" };

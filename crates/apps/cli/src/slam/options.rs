@@ -9,6 +9,7 @@ use periplus_session::log_mapping::LogMappingRequest;
 use periplus_slam::Method;
 
 use crate::log::LogOptions;
+use crate::run_options::LiveNetworkOptions;
 
 /// Build a map and a trajectory from a log of laser scans
 ///
@@ -116,6 +117,8 @@ pub(crate) struct LiveOptions {
     /// parameter file]
     #[arg(long, value_name = "PROGRAM", requires = "live")]
     pub(crate) node: Option<Program>,
+    #[command(flatten)]
+    pub(crate) network: LiveNetworkOptions,
 }
 
 fn side(text: &str) -> Result<f64, String> {

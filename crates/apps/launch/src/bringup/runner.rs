@@ -35,6 +35,8 @@ pub struct Settings {
     pub dialect: Dialect,
     /// True if ROS programs can reach the graph.
     pub is_wired: bool,
+    /// True if the run is in ROS 1, so that compiled programs of ROS 1 can reach the graph.
+    pub has_ros1_master: bool,
     /// True if the run keeps pace with real time.
     pub is_paced: bool,
     /// Words that start a program which ends remaining processes when this one is killed: this program

@@ -4,6 +4,7 @@ use std::fmt;
 use std::io;
 use std::time::Duration;
 
+use periplus_graph::Graph;
 use periplus_sim::{Services, Simulation};
 
 use crate::error::RunError;
@@ -39,6 +40,22 @@ absent! {
     pub Ros2Reach
 }
 absent! {
+    /// Error of ROS 1.
+    pub Ros1Error
+}
+absent! {
+    /// Visibility of a session on ROS 1.
+    pub Ros1Reach
+}
+absent! {
+    /// Parameter of ROS 1.
+    pub Ros1Value
+}
+absent! {
+    /// Connection of a run to ROS 1 programs.
+    pub(crate) Ros1Connection
+}
+absent! {
     /// Connection of a run to Gazebo programs.
     pub(crate) GazeboConnection
 }
@@ -51,6 +68,25 @@ impl GazeboConnection {
         _: bool,
     ) -> Result<Self, RunError> {
         match settings {}
+    }
+
+    pub(crate) fn print_findings(self) -> io::Result<()> {
+        match self {}
+    }
+}
+
+impl Ros1Connection {
+    pub(crate) fn join(
+        _: &Graph,
+        reach: Ros1Reach,
+        _: Vec<(String, Ros1Value)>,
+        _: bool,
+    ) -> Result<Self, RunError> {
+        match reach {}
+    }
+
+    pub(crate) fn is_due(self, _: Duration) -> bool {
+        match self {}
     }
 
     pub(crate) fn print_findings(self) -> io::Result<()> {

@@ -296,10 +296,13 @@ impl Topics {
     }
 }
 
+/// Smallest queue depth: a sender in a thread of its connection lags behind by some messages.
+const MIN_DEPTH: usize = 10;
+
 /// A history of unlimited depth gets a limit.
 fn depth(qos: &Qos) -> usize {
     match qos.history {
-        History::KeepLast => qos.depth.clamp(1, KEEP_ALL_MAX_MESSAGES),
+        History::KeepLast => qos.depth.clamp(MIN_DEPTH, KEEP_ALL_MAX_MESSAGES),
         History::KeepAll => KEEP_ALL_MAX_MESSAGES,
     }
 }

@@ -13,7 +13,7 @@ use periplus_session::{LiveGraph, Page, PageContext, stop};
 use serde_json::json;
 
 use super::log::LogPrinter;
-use super::{Launched, PlayOptions};
+use super::{Launched, PlayOptions, parameter_server};
 use crate::error::CliError;
 use crate::options::SearchOptions;
 use crate::terminal;
@@ -42,7 +42,11 @@ pub(super) fn run(
         ));
     }
     let stop = stop::on_signal();
+    let parameters = parameter_server::parameters(&launched.plan);
     let mut live = LiveGraph::open(launched.arguments)?;
+    if let Some(reach) = options.ros1.reach() {
+        live.join_ros1(reach, parameters, options.quiet)?;
+    }
     bringup.set_wired(true);
     if !options.quiet {
         terminal::say(&format!("ROS 2: domain {}", live.domain_id));
@@ -110,7 +114,11 @@ fn spin(
 /// searched for.
 fn uses_clock(live: &LiveGraph, bringup: &LaunchRunner, dialect: Dialect) -> bool {
     let is_published = dialect == Dialect::Ros1 && has_clock(live);
-    bringup.follows_clock() || is_published
+    let is_simulated = live.ros1.as_ref().is_some_and(|ros1| {
+        let set = ros1.client().ask("getParam", vec!["/use_sim_time".into()]);
+        set == Ok(true.into())
+    });
+    bringup.follows_clock() || is_published || is_simulated
 }
 
 fn follow_clock(live: &mut LiveGraph, node: &Node, is_quiet: bool) -> Result<(), CliError> {

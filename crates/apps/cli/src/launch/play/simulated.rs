@@ -20,7 +20,7 @@ use serde_json::json;
 use super::lockstep::RunLockstep;
 use super::log::LogPrinter;
 use super::watch::ProcessWatch;
-use super::{Launched, PlayOptions, world};
+use super::{Launched, PlayOptions, parameter_server, world};
 use crate::error::CliError;
 use crate::options::SearchOptions;
 use crate::run_options::{Factor, exit_code};
@@ -72,6 +72,8 @@ pub(super) fn run(
         .command(Some(launched.recorded))
         .recording_truth(options.recorded.records_truth())
         .ros2(options.ros2.map(Into::into))
+        .ros1(options.ros1.reach())
+        .ros1_parameters(parameter_server::parameters(&launched.plan))
         .page(page)
         .build()?;
     bringup.set_wired(session.is_on_ros2());

@@ -381,8 +381,12 @@ fn connection(
         return Ok(Connection::None);
     }
     if !is_python && settings.dialect == Dialect::Ros1 {
+        if settings.has_ros1_master {
+            return Ok(Connection::Network);
+        }
         return Err("no built-in program replaces it, no package in the sources has it as a Python program, and \
-             compiled ROS 1 programs need a master; name the folder of the package with `--resource-path`"
+             compiled ROS 1 programs need a master: run with `--ros1`, or name the folder of the package with \
+             `--resource-path`"
             .into());
     }
     if settings.is_wired {

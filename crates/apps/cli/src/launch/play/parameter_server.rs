@@ -1,0 +1,57 @@
+//! Parameters of a ROS 1 launch on the parameter server, where programs of ROS 1 read them.
+
+use periplus_launch::{LaunchPlan, PlanParameters, What};
+use periplus_ros1::Value;
+use serde_json::Value as Json;
+
+/// Parameters of the plan by their full names: those of the server, and those of each node in its namespace.
+pub(super) fn parameters(plan: &LaunchPlan) -> Vec<(String, Value)> {
+    let global = plan.parameters.iter().map(|(name, value)| (name.clone(), value_of(value)));
+    let mut all: Vec<(String, Value)> = global.collect();
+    for step in &plan.steps {
+        let What::Node(node) = &step.what else { continue };
+        let identity = &node.identity;
+        let Some(name) = &identity.name else { continue };
+        let namespace = identity.namespace.as_deref().unwrap_or("/").trim_end_matches('/');
+        for parameters in &identity.parameters {
+            let PlanParameters::Values(values) = parameters else { continue };
+            for (key, value) in values {
+                let key = key.replace('.', "/");
+                all.push((format!("{namespace}/{name}/{key}"), value_of(value)));
+            }
+        }
+    }
+    all
+}
+
+fn value_of(json: &Json) -> Value {
+    match json {
+        Json::Null => Value::Text(String::new()),
+        Json::Bool(value) => Value::Bool(*value),
+        Json::Number(number) => match number.as_i64().and_then(|one| i32::try_from(one).ok()) {
+            Some(number) => Value::Int(number),
+            None => Value::Double(number.as_f64().unwrap_or_default()),
+        },
+        Json::String(text) => Value::Text(text.clone()),
+        Json::Array(list) => Value::List(list.iter().map(value_of).collect()),
+        Json::Object(members) => {
+            Value::Struct(members.iter().map(|(name, one)| (name.clone(), value_of(one))).collect())
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn numbers_keep_their_kind() {
+        assert_eq!(value_of(&json!(3)), Value::Int(3));
+        assert_eq!(value_of(&json!(3.0)), Value::Double(3.0));
+        assert_eq!(value_of(&json!(3_000_000_000_i64)), Value::Double(3e9));
+        assert_eq!(value_of(&json!({"a": [true]})), Value::Struct(
+            [("a".to_owned(), Value::List(vec![Value::Bool(true)]))].into()
+        ));
+    }
+}
