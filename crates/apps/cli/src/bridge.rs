@@ -1,6 +1,7 @@
 //! `periplus bridge`.
 
 mod config;
+mod ros1;
 mod services;
 mod spec;
 
@@ -40,6 +41,9 @@ const USAGE_EXIT_CODE: u8 = 255;
 /// `@GZ_REQUEST@GZ_RESPONSE`: ROS nodes call services of Gazebo. `-r /lidar:=/laser_scan` remaps on
 /// the ROS side only. `--ros-args` is understood; parameters are `config_file`, `lazy` and
 /// `expand_gz_topic_names`.
+///
+/// `periplus bridge ros1` bridges ROS 1, with the master at ROS_MASTER_URI, and ROS 2: topics that
+/// one side publishes and the other subscribes to, and all services, if both types are known.
 #[derive(Debug, Args)]
 pub(crate) struct BridgeOptions {
     /// Topics and services to bridge
@@ -51,6 +55,9 @@ pub(crate) struct BridgeOptions {
     /// Remap a topic, service or node on the ROS side: `from:=to`
     #[arg(long = "remap", short = 'r', value_name = "FROM:=TO")]
     remaps: Vec<String>,
+    /// With `ros1`: bridge topics that nobody subscribes to, too
+    #[arg(long)]
+    all: bool,
     /// Parameter: `name:=value`
     #[arg(long = "param", short = 'p', value_name = "NAME:=VALUE")]
     parameters: Vec<String>,
@@ -78,6 +85,18 @@ impl BridgeParameters {
 }
 
 pub(crate) fn run(options: &BridgeOptions, ros: Vec<String>) -> Result<ExitCode, CliError> {
+    match options.words.as_slice() {
+        [first] if first == "ros1" => return ros1::run(options.all),
+        [first, ..] if first == "ros1" => {
+            return Err(CliError::usage(
+                "`periplus bridge ros1` bridges all topics and services that both sides know; it takes no names",
+            ));
+        }
+        _ if options.all => {
+            return Err(CliError::usage("`--all` belongs to `periplus bridge ros1`"));
+        }
+        _ => {}
+    }
     let arguments = options.arguments(ros)?;
     let specs = options.specs()?;
     let stop = stop::on_signal();

@@ -36,6 +36,7 @@ pub(super) const EXAMPLES: &[(&str, &[Example])] = &[
     ("bridge", &[
         ("periplus bridge '/lidar@sensor_msgs/msg/LaserScan[gz.msgs.LaserScan'", "Scans from Gazebo to ROS 2"),
         ("periplus bridge --config bridge.yaml", "Bridge the topics of a file"),
+        ("periplus bridge ros1", "ROS 1 and ROS 2, in both directions"),
     ]),
     ("calibrate", &[
         ("periplus calibrate drive.mcap --robot robot.urdf.xacro --plot residuals.png", "Wheels, scanner and IMU, beside the robot's file, with the changes of its texts"),
