@@ -27,6 +27,7 @@ mod pictures;
 mod platforms;
 mod python;
 mod rays;
+mod ros1;
 mod ros2;
 mod runs;
 mod scenarios;
@@ -296,6 +297,8 @@ enum Contest {
     Sim,
     /// Messages to and from Fast DDS and Cyclone DDS
     Wire,
+    /// Messages to and from roscpp of ROS 1
+    Ros1,
     /// Comparison with ROS 2 (rclpy): rates and losses of sensor messages, completeness of lists, CPU time of calls
     Ros2,
     /// Real time factor of a simulation with stopped and with reading subscribers
@@ -342,6 +345,7 @@ fn perform(task: &Task) -> Result<(), Failed> {
                 Some(Contest::Rays) => rays::bench(),
                 Some(Contest::Sim) => runs::bench(),
                 Some(Contest::Wire) => wire::bench(load.as_deref()),
+                Some(Contest::Ros1) => ros1::bench(),
                 Some(Contest::Ros2) => ros2::bench(load.as_deref(), *quick),
                 Some(Contest::Subscribers) => ros2::subscribers(*quick),
                 Some(Contest::Slam) => slam::bench(&slam::Wish {

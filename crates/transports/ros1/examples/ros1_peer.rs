@@ -59,7 +59,6 @@ fn publish<T: Message>(
 fn subscribe<T: Message>(
     node: &Node,
     bytes_of: impl Fn(&T) -> usize,
-    duration: Duration,
 ) -> Result<(), Box<dyn Error>> {
     let heard: Mailbox<T> = node.mailbox(TOPIC, Qos::reliable(DEPTH))?;
     let raw = node.raw_mailbox(TOPIC, T::TYPE_NAME, Some(T::TYPE_HASH), Qos::reliable(DEPTH))?;
@@ -70,19 +69,22 @@ fn subscribe<T: Message>(
         ringing.1.notify_one();
     });
     let (count, bytes) = (AtomicU64::new(0), AtomicU64::new(0));
-    let mut begun: Option<(Instant, f64)> = None;
-    while begun.is_none_or(|(start, _)| start.elapsed() < duration + Duration::from_millis(1500)) {
+    let mut begun = None;
+    let mut last: Option<Instant> = None;
+    // It ends when no message came for two seconds.
+    while last.is_none_or(|last| last.elapsed() < Duration::from_secs(2)) {
         let due = bell.0.lock().unwrap_or_else(PoisonError::into_inner);
         let waited = bell.1.wait_timeout_while(due, Duration::from_millis(100), |due| !*due);
         *waited.unwrap_or_else(PoisonError::into_inner).0 = false;
         drop(raw.drain());
         for message in heard.drain() {
-            begun.get_or_insert_with(|| (Instant::now(), cpu_s()));
+            begun.get_or_insert_with(cpu_s);
+            last = Some(Instant::now());
             count.fetch_add(1, Ordering::Relaxed);
             bytes.fetch_add(bytes_of(&message) as u64, Ordering::Relaxed);
         }
     }
-    let before = begun.map_or(0.0, |(_, before)| before);
+    let before = begun.unwrap_or_default();
     println!(
         "{{\"messages\": {}, \"cpu_s\": {:.3}, \"bytes\": {}}}",
         count.into_inner(),
@@ -116,8 +118,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         ("pub", "cloud") => publish(&wire, &node, cloud(), 30.0, duration),
         ("pub", _) => publish(&wire, &node, small(), 1000.0, duration),
         (_, "cloud") => {
-            subscribe(&node, |cloud: &sensor_msgs::PointCloud2| cloud.data.len(), duration)
+            subscribe(&node, |cloud: &sensor_msgs::PointCloud2| cloud.data.len())
         }
-        _ => subscribe(&node, |one: &std_msgs::Float64MultiArray| 8 * one.data.len(), duration),
+        _ => subscribe(&node, |one: &std_msgs::Float64MultiArray| 8 * one.data.len()),
     }
 }

@@ -194,13 +194,13 @@ impl Ros1Transport {
             .map_err(|why| Ros1Error::Master { uri: self.client.uri().to_owned(), why })
     }
 
-    /// Names of the subscribers that are connected to a topic which nodes of this program publish; none if they do
-    /// not publish it.
+    /// Names of the subscribers that get the next message of a topic which nodes of this program publish; none if
+    /// they do not publish it.
     #[must_use]
     pub fn subscribers_of(&self, topic: &str) -> Option<BTreeSet<String>> {
         let all = lock(&self.shared.publications);
         let its = all.iter().filter_map(Weak::upgrade).filter(|one| one.topic == topic);
-        its.map(|one| one.report().1.into_iter().map(|link| link.peer).collect())
+        its.map(|one| one.subscribers().into_iter().collect())
             .reduce(|all: BTreeSet<String>, more| &all | &more)
     }
 

@@ -224,6 +224,9 @@ impl Topics {
                 one.ids.iter().map(move |id| (topic.as_str(), *id, &one.outgoing))
             });
             self.taps.listen(graph, ways);
+            for one in self.publishing.values() {
+                one.outgoing.publication.set_fed(one.outgoing.publication.is_wanted());
+            }
         }
     }
 

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, VecDeque};
 use std::io::{self, Write as _};
 use std::net::TcpStream;
-use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::time::Duration;
 
@@ -31,6 +31,8 @@ pub(crate) struct Publication {
     /// Queue depth of a subscriber; the oldest message is dropped when it is exceeded.
     depth: usize,
     subscribers: AtomicUsize,
+    /// True if messages of the graph come here.
+    is_fed: AtomicBool,
     sent_bytes: AtomicU64,
     links: Mutex<Links>,
     wake: Wake,
@@ -89,6 +91,7 @@ impl Publication {
             is_latching,
             depth: depth.max(1),
             subscribers: AtomicUsize::new(0),
+            is_fed: AtomicBool::new(false),
             sent_bytes: AtomicU64::new(0),
             links: Mutex::default(),
             wake,
@@ -98,6 +101,19 @@ impl Publication {
     /// True if there is a subscriber, or the message is kept for later ones.
     pub(crate) fn is_wanted(&self) -> bool {
         self.is_latching || self.subscribers.load(Ordering::Relaxed) > 0
+    }
+
+    /// Notes whether messages of the graph come here.
+    pub(crate) fn set_fed(&self, is_fed: bool) {
+        self.is_fed.store(is_fed, Ordering::Release);
+    }
+
+    /// Names of the subscribers that get the next message.
+    pub(crate) fn subscribers(&self) -> Vec<String> {
+        if !self.is_fed.load(Ordering::Acquire) {
+            return Vec::new();
+        }
+        lock(&self.links).open.values().map(|link| link.peer.clone()).collect()
     }
 
     /// Queues a message for all subscribers.
