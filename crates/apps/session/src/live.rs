@@ -88,18 +88,21 @@ impl LiveGraph {
         Ok(live)
     }
 
-    /// Joins ROS 1, too, and sets parameters of its server by full names; starts a master if none answers.
+    /// Joins ROS 1 in place of ROS 2 and sets parameters of its server by full names; starts a master if none
+    /// answers.
     ///
     /// # Errors
     /// When no master answers and none can be started.
-    pub fn join_ros1(
-        &mut self,
+    pub fn start_ros1(
+        arguments: Arguments,
         reach: Ros1Reach,
         parameters: Vec<(String, Ros1Value)>,
         is_quiet: bool,
-    ) -> Result<(), RunError> {
-        self.ros1 = Some(crate::join_ros1(&self.graph, reach, parameters, is_quiet)?);
-        Ok(())
+    ) -> Result<Self, RunError> {
+        let settings = Settings { range: DiscoveryRange::Off, ..Settings::default() };
+        let mut live = Self::with(&settings, arguments)?;
+        live.ros1 = Some(crate::join_ros1(&live.graph, reach, parameters, is_quiet)?);
+        Ok(live)
     }
 
     /// Follows `/clock` from now on; time does not advance until `/clock` has a publisher.
@@ -120,8 +123,8 @@ impl LiveGraph {
             Some(clock) => {
                 if let Some(told) = clock.latest() {
                     let time_ns = told.clock.ns();
-                    // Time jumped back: the simulation was reset.
-                    if time_ns < self.graph.now_ns() {
+                    // Time jumped back: the simulation was reset. The first time is no time that passed.
+                    if time_ns < self.graph.now_ns() || self.graph.now_ns() == 0 {
                         self.graph.jump_to(time_ns);
                     }
                     self.graph.advance_to(time_ns);

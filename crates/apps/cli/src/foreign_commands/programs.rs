@@ -170,6 +170,7 @@ pub(super) fn run(package: &str, program: &str, rest: &[String], dialect: Dialec
         .iter()
         .find(|known| known.packages.contains(&package) && known.names.contains(&program));
     match known {
+        Some(known) if dialect == Dialect::Ros1 => on_ros1(known.reading(words)),
         Some(known) => known.reading(words),
         // A program of ROS 1 reads its own names and parameters.
         None if dialect == Dialect::Ros1 => {
@@ -182,6 +183,19 @@ pub(super) fn run(package: &str, program: &str, rest: &[String], dialect: Dialec
             words.remark(become_words(&["run"], rest.collect()))
         }
     }
+}
+
+/// A command that uses ROS 1 if a master answers, in place of one that uses ROS 2.
+fn on_ros1(reading: Reading) -> Reading {
+    let Reading::Words { mut words, notes } = reading else { return reading };
+    let own: Vec<&str> = words.iter().map(String::as_str).take(2).collect();
+    let verbs = match own.as_slice() {
+        ["map", "save" | "serve"] | ["tf", "echo" | "monitor" | "tree"] => 2,
+        ["localize" | "slam" | "teleop" | "view", ..] => 1,
+        _ => return Reading::Words { words, notes },
+    };
+    words.insert(verbs, "--ros1=auto".to_owned());
+    Reading::Words { words, notes }
 }
 
 /// Translates a program by its name alone, as typed when its folder is on the PATH.
@@ -236,9 +250,10 @@ fn mistaken_saver(package: &str, words: Words) -> Reading {
         &["map", "save"]
     };
     let rest = words.own.iter().cloned().chain(words.ros()).collect();
-    words
+    let reading = words
         .remark(become_words(ours, rest))
-        .noting(format!("`map_server` serves maps; to save one, `{saver} -f NAME` runs instead"))
+        .noting(format!("`map_server` serves maps; to save one, `{saver} -f NAME` runs instead"));
+    if package == "map_server" { on_ros1(reading) } else { reading }
 }
 
 /// `static_transform_publisher` of ROS 1's `tf` ends with a period: 9 words with angles, 10 with a

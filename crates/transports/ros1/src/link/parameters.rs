@@ -11,6 +11,9 @@ use super::Net;
 use crate::names::node_name;
 use crate::xmlrpc::Value;
 
+/// A parameter that programs of ROS 1, such as RViz, look for in the namespace of the robot.
+const ROBOT_DESCRIPTION: &str = "robot_description";
+
 /// Period at which changes are looked for.
 const LOOK: Duration = Duration::from_secs(1);
 
@@ -36,10 +39,17 @@ impl Parameters {
             for parameter in parameters {
                 let Some(value) = value_of(&parameter.value) else { continue };
                 let parts = parameter.name.replace('.', "/");
-                let key = format!("{}/{parts}", node_name(&node));
-                if self.known.get(&key) != Some(&value) {
-                    self.known.insert(key.clone(), value.clone());
-                    changed.push((key, value));
+                let node = node_name(&node);
+                let mut keys = vec![format!("{node}/{parts}")];
+                if parameter.name == ROBOT_DESCRIPTION {
+                    let namespace = node.rsplit_once('/').map_or("", |(namespace, _)| namespace);
+                    keys.push(format!("{namespace}/{parts}"));
+                }
+                for key in keys {
+                    if self.known.get(&key) != Some(&value) {
+                        self.known.insert(key.clone(), value.clone());
+                        changed.push((key, value.clone()));
+                    }
                 }
             }
         }

@@ -42,13 +42,15 @@ pub(super) fn run(
         ));
     }
     let stop = stop::on_signal();
-    let parameters = parameter_server::parameters(&launched.plan);
-    let mut live = LiveGraph::open(launched.arguments)?;
-    if let Some(reach) = options.ros1.reach() {
-        live.join_ros1(reach, parameters, options.quiet)?;
-    }
+    let mut live = match options.ros1.reach() {
+        Some(reach) => {
+            let parameters = parameter_server::parameters(&launched.plan);
+            LiveGraph::start_ros1(launched.arguments, reach, parameters, options.quiet)?
+        }
+        None => LiveGraph::open(launched.arguments)?,
+    };
     bringup.set_wired(true);
-    if !options.quiet {
+    if !options.quiet && live.ros1.is_none() {
         terminal::say(&format!("ROS 2: domain {}", live.domain_id));
     }
     let node = live.graph.node(NodeSettings::new("periplus_launch").bare());
