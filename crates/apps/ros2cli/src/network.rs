@@ -25,6 +25,11 @@ pub trait Network {
     /// evaluated only after changes.
     fn wait(&self, timeout: Duration, wanted: &mut dyn FnMut(&Seen) -> bool) -> bool;
 
+    /// Returns a type as the network writes it: ROS 1 has `std_msgs/String`.
+    fn shown_type(&self, type_name: &str) -> String {
+        type_name.to_owned()
+    }
+
     /// Waits until published messages have been delivered to all subscribers, up to a timeout.
     fn flush(&self, timeout: Duration) -> bool;
 }

@@ -61,7 +61,8 @@ pub fn info(session: &mut Session<'_>, name: &str, include_hidden: bool) -> Outc
             writeln!(session.out)?;
         }
         for (name, types) in uses {
-            writeln!(session.out, "    {name}: {}", types.join(", "))?;
+            let types = session.shown_types(&types).join(", ");
+            writeln!(session.out, "    {name}: {types}")?;
         }
     }
     session.out.flush()?;

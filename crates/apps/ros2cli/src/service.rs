@@ -34,7 +34,7 @@ pub fn list(
         let all = services.iter().map(|one| one.to_json()).collect::<Vec<_>>();
         return session.put(&json!({ "services": all }));
     }
-    let titles = services.iter().map(|one| titled(&one.name, &one.types, show_types));
+    let titles = services.iter().map(|one| titled(&one.name, &session.shown_types(&one.types), show_types));
     session.put_list("service", &titles.collect::<Vec<_>>(), count)
 }
 
@@ -68,7 +68,8 @@ pub fn info(session: &mut Session<'_>, name: &str, verbose: bool) -> Outcome {
     if session.json {
         return session.put(&service.to_json());
     }
-    writeln!(session.out, "Type: {}", service.types.join(", "))?;
+    let types = session.shown_types(&service.types).join(", ");
+    writeln!(session.out, "Type: {types}")?;
     for (what, nodes) in [("Clients", &service.clients), ("Services", &service.servers)] {
         writeln!(session.out, "{what} count: {}", nodes.len())?;
         if verbose {

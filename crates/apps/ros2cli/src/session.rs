@@ -208,6 +208,11 @@ impl Session<'_> {
         self.put_names(names, count)
     }
 
+    /// Types as the network writes them.
+    pub(crate) fn shown_types(&self, types: &[String]) -> Vec<String> {
+        types.iter().map(|name| self.network.shown_type(name)).collect()
+    }
+
     /// Prints the types of the entity of this name.
     ///
     /// # Errors
@@ -216,7 +221,7 @@ impl Session<'_> {
         if self.json {
             return self.put(&json!({ "name": name, "types": types }));
         }
-        self.put_names(types, false)
+        self.put_names(&self.shown_types(types), false)
     }
 
     /// Prints the names of the entities of this type, or their number.

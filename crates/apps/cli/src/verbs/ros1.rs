@@ -8,7 +8,7 @@ use periplus_diagnostics::Diagnostics;
 use periplus_graph::{Graph, Qos};
 use periplus_os::{Machine, Stopwatch, sleep};
 use periplus_ros1::{
-    MasterUse, Ros1Reach, Ros1Transport, Settings, SystemState, ros2_service_type,
+    MasterUse, Ros1Reach, Ros1Transport, Settings, SystemState, ros1_type, ros2_service_type,
     ros2_type,
 };
 use periplus_ros2cli::{Network, Progress, Seen, SeenNode, SeenService, SeenTopic, TopicEndpoint};
@@ -162,6 +162,10 @@ impl Network for Ros1Connection {
             }
             sleep(POLL_PERIOD.min(rest));
         }
+    }
+
+    fn shown_type(&self, type_name: &str) -> String {
+        ros1_type(type_name).unwrap_or_else(|| type_name.to_owned())
     }
 
     fn flush(&self, timeout: Duration) -> bool {

@@ -45,7 +45,7 @@ pub fn list(session: &mut Session<'_>, options: TopicListOptions) -> Outcome {
             let lines = topics.iter().map(|topic| (topic, count(topic)));
             let lines = lines.filter(|(_, count)| *count > 0).map(|(topic, count)| {
                 let more = if count > 1 { "s" } else { "" };
-                let types = topic.types.join(", ");
+                let types = session.shown_types(&topic.types).join(", ");
                 format!(" * {} [{types}] {count} {one}{more}\n", topic.name)
             });
             format!("{kind} topics:\n{}\n", lines.collect::<String>())
@@ -56,7 +56,7 @@ pub fn list(session: &mut Session<'_>, options: TopicListOptions) -> Outcome {
         session.out.flush()?;
         return Ok(());
     }
-    let titles = topics.iter().map(|one| titled(&one.name, &one.types, options.show_types));
+    let titles = topics.iter().map(|one| titled(&one.name, &session.shown_types(&one.types), options.show_types));
     session.put_list("topic", &titles.collect::<Vec<_>>(), options.count)
 }
 
@@ -91,7 +91,7 @@ pub fn info(session: &mut Session<'_>, name: &str, verbose: bool) -> Outcome {
         }));
     }
     let end = if verbose { "\n\n" } else { "\n" };
-    let types = match topic.types.as_slice() {
+    let types = match session.shown_types(&topic.types).as_slice() {
         [one] => one.clone(),
         types => {
             let quoted = types.iter().map(|name| format!("'{name}'"));
