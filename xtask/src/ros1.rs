@@ -40,7 +40,9 @@ pub(crate) fn bench() -> Result<(), Failed> {
     let mut compile = Command::new("g++");
     compile.args(["-std=c++17", "-O2", "-o"]).arg(&theirs);
     compile.arg(root().join("benches/oracles/ros1_peer.cc"));
-    for library in ["roscpp", "rosconsole", "roscpp_serialization", "rostime", "boost_system", "pthread"] {
+    for library in
+        ["roscpp", "rosconsole", "roscpp_serialization", "rostime", "boost_system", "pthread"]
+    {
         compile.arg(format!("-l{library}"));
     }
     run(&mut compile, "MISSING PEER roscpp: install g++, libroscpp-dev and libsensor-msgs-dev")?;
@@ -48,7 +50,15 @@ pub(crate) fn bench() -> Result<(), Failed> {
     build.args(["build", "--quiet", "--release", "--package", "periplus-cli"]);
     run(&mut build, "the program cannot be built")?;
     let mut build = cargo();
-    build.args(["build", "--quiet", "--release", "--package", "periplus-ros1", "--example", "ros1_peer"]);
+    build.args([
+        "build",
+        "--quiet",
+        "--release",
+        "--package",
+        "periplus-ros1",
+        "--example",
+        "ros1_peer",
+    ]);
     run(&mut build, "the peer cannot be built")?;
     let ours = target.join("release/examples/ros1_peer");
     let mut master = command(&target.join("release/periplus"));
@@ -88,8 +98,7 @@ fn command(program: &Path) -> Command {
 
 fn race(load: &str, from: &Path, to: &Path) -> Result<(Figures, Figures), Failed> {
     let start = |peer: &Path, way: &str| {
-        let started =
-            command(peer).args([way, load, DURATION_S]).stdout(Stdio::piped()).spawn();
+        let started = command(peer).args([way, load, DURATION_S]).stdout(Stdio::piped()).spawn();
         started.map_err(|error| Failed(format!("{}: {error}", peer.display())))
     };
     let receiver = start(to, "sub")?;

@@ -5,8 +5,8 @@ use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
 use periplus_bags::Compression;
-use periplus_gz_msgs::Dialect;
 use periplus_graph::Arguments;
+use periplus_gz_msgs::Dialect;
 use periplus_gz_transport::DiscoveryReach;
 use periplus_os::Machine;
 use periplus_ros1::{MasterClient, RpcError, Settings};

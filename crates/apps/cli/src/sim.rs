@@ -1,5 +1,6 @@
 //! `periplus sim`.
 
+mod fleet;
 mod robots;
 
 use std::io::{self, Write};
@@ -14,7 +15,7 @@ use periplus_session::nodes::EstimatorSelection;
 use periplus_session::{
     GazeboSettings, NoTask, PageContext, RunSettings, SessionBuilder, SimulationSession, stop,
 };
-use periplus_sim::{Driver, Options, PhysicsMode, Quirks, TopicFilter, compose};
+use periplus_sim::{Composition, Driver, Options, PhysicsMode, Quirks, TopicFilter, compose};
 
 use crate::arguments;
 use crate::costmap::CostmapOptions;
@@ -42,6 +43,10 @@ pub(crate) struct SimOptions {
     words: Vec<String>,
     #[command(flatten)]
     robots: Robots,
+    /// Number of copies of the robot, spread over the free floor around its pose; each has its
+    /// name with a number as name and namespace
+    #[arg(long = "robots", value_name = "COUNT", value_parser = robot_count)]
+    robot_count: Option<usize>,
     /// Duration of the run in simulated seconds [default: until Ctrl-C]
     #[arg(long, value_name = "SECONDS", value_parser = positive)]
     duration: Option<f64>,
@@ -172,9 +177,15 @@ pub(crate) fn run(
     let driver = options.driver()?;
     let search = terminal::search(&options.search.resource_path);
     let composition = search.with_context(true, |context| {
-        let context = LoadContext { arguments, ..context.clone() };
+        let context = LoadContext { arguments: arguments.clone(), ..context.clone() };
         compose(&world, &options.robots.placements, &context)
     });
+    let composition = options.spread(composition, || {
+        search.with_context(true, |context| {
+            let context = LoadContext { arguments: arguments.clone(), ..context.clone() };
+            compose(&world, &options.robots.placements, &context)
+        })
+    })?;
     let factor = Factor::of_run(options.rtf, options.duration, &composition);
     let page = options.page.of_run(
         PageContext {
@@ -194,7 +205,7 @@ pub(crate) fn run(
         .command(Some(recorded))
         .computed(options.computed())
         .driver(driver)
-        .estimators(options.selection().request(options.robots.placements.len()))
+        .estimators(options.selection().request(options.number_of_robots()))
         .ros2(options.ros2.map(Into::into))
         .ros1(options.ros1.reach())
         .gazebo(options.gazebo())
@@ -214,7 +225,35 @@ pub(crate) fn run(
     }
 }
 
+/// Parses a number of robots.
+fn robot_count(word: &str) -> Result<usize, String> {
+    match word.parse() {
+        Ok(count @ 1..=10_000) => Ok(count),
+        _ => Err("expected a number of robots from 1 to 10000".into()),
+    }
+}
+
 impl SimOptions {
+    fn number_of_robots(&self) -> usize {
+        self.robot_count.unwrap_or(self.robots.placements.len())
+    }
+
+    /// Adds the copies of the robot. `probe` reads the files again, to look for places.
+    fn spread(
+        &self,
+        mut composition: Composition,
+        probe: impl FnOnce() -> Composition,
+    ) -> Result<Composition, CliError> {
+        let Some(count) = self.robot_count else { return Ok(composition) };
+        if self.robots.placements.len() != 1 {
+            return Err(CliError::usage("`--robots` needs exactly one `--robot`"));
+        }
+        if !composition.has_errors() {
+            composition.spread_last(&fleet::places(probe(), count)?);
+        }
+        Ok(composition)
+    }
+
     /// Arguments of nodes in the form of `--ros-args`, own options first.
     fn ros_words(&self, ros: Vec<String>) -> Vec<String> {
         let own = [
@@ -242,7 +281,7 @@ impl SimOptions {
             )));
         }
         let selection = self.selection();
-        if let Some(why) = selection.refusal(self.robots.placements.len()) {
+        if let Some(why) = selection.refusal(self.number_of_robots()) {
             return Err(CliError::usage(why));
         }
         if self.mapping.needs_mapping() && !selection.runs_mapping() {

@@ -19,9 +19,9 @@ use periplus_ros2cli::teleop::{Keyboard, Pressed, SCREEN, TELEOP, TeleopParams, 
 
 use crate::arguments;
 use crate::error::CliError;
+use crate::run_options::LiveNetworkOptions;
 use crate::terminal::diagnostics;
 use terminal::RawTerminal;
-use crate::run_options::LiveNetworkOptions;
 
 /// Number of velocity lines after which the screen is printed again, as in `teleop_twist_keyboard`.
 const LINES_PER_SCREEN: u32 = 15;

@@ -15,8 +15,8 @@ use periplus_session::stop;
 use crate::arguments;
 use crate::error::CliError;
 use crate::page::PageOptions;
-use crate::terminal::{complain, say};
 use crate::run_options::LiveNetworkOptions;
+use crate::terminal::{complain, say};
 
 /// Polling period.
 const POLL_PERIOD: Duration = Duration::from_millis(5);

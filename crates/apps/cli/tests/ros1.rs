@@ -158,7 +158,11 @@ fn programs_of_debian_use_a_run() {
     let place = Place::new("run");
     let _run = place.start(place.ours(&["sim", &pong(), "--ros1", "--ros2", "off"]));
     place.theirs_until("rosnode", &["list"], "/rosout");
-    let topics = place.theirs_until("rostopic", &["list", "-v"], "/lidar [sensor_msgs/LaserScan] 1 publisher");
+    let topics = place.theirs_until(
+        "rostopic",
+        &["list", "-v"],
+        "/lidar [sensor_msgs/LaserScan] 1 publisher",
+    );
     assert!(topics.contains("* /clock [rosgraph_msgs/Clock] 1 publisher"), "{topics}");
     let scan = place.theirs("rostopic", &["echo", "-n", "1", "/lidar"]);
     assert!(scan.contains("angle_increment:"), "{scan}");
@@ -189,9 +193,13 @@ fn programs_of_debian_use_a_run() {
     assert!(killed.contains("xmlrpc reply"), "{killed}");
     let bag = place.folder.join("run.bag");
     let name = bag.to_str().unwrap();
-    let recorded = place.theirs("rosbag", &["record", "--duration", "3", "-O", name, "/lidar", "/clock"]);
+    let recorded =
+        place.theirs("rosbag", &["record", "--duration", "3", "-O", name, "/lidar", "/clock"]);
     let info = place.theirs("rosbag", &["info", name]);
-    assert!(info.contains("/lidar") && info.contains("90c7ef2dc6895d81024acba2ac42f369"), "{recorded}{info}");
+    assert!(
+        info.contains("/lidar") && info.contains("90c7ef2dc6895d81024acba2ac42f369"),
+        "{recorded}{info}"
+    );
 }
 
 #[test]
@@ -218,7 +226,8 @@ fn the_words_of_ros_1_use_a_master_of_debian() {
     place.ours_until(&["rosnode", "ping", "-c", "1", "/rosout"], "reply from");
 
     // What we publish arrives there.
-    let words = ["rostopic", "pub", "-r", "10", "/greeting", "std_msgs/String", "data: good morning"];
+    let words =
+        ["rostopic", "pub", "-r", "10", "/greeting", "std_msgs/String", "data: good morning"];
     let told = place.start(place.ours(&words));
     place.theirs_until("rostopic", &["echo", "-n", "1", "/greeting"], "data: \"good morning\"");
     drop(told);
@@ -239,5 +248,8 @@ fn ros_1_and_ros_2_are_bridged() {
     let _bridge = place.start(place.ours(&["bridge", "ros1", "--all"]));
     let words = ["topic", "pub", "-r", "10", "/chatter", "std_msgs/msg/String", "{data: over}"];
     let _two = place.start(place.ours(&words));
-    place.ours_until(&["topic", "echo", "--ros1", "--once", "/chatter", "std_msgs/msg/String"], "data: over");
+    place.ours_until(
+        &["topic", "echo", "--ros1", "--once", "/chatter", "std_msgs/msg/String"],
+        "data: over",
+    );
 }

@@ -34,7 +34,8 @@ pub fn list(
         let all = services.iter().map(|one| one.to_json()).collect::<Vec<_>>();
         return session.put(&json!({ "services": all }));
     }
-    let titles = services.iter().map(|one| titled(&one.name, &session.shown_types(&one.types), show_types));
+    let titles =
+        services.iter().map(|one| titled(&one.name, &session.shown_types(&one.types), show_types));
     session.put_list("service", &titles.collect::<Vec<_>>(), count)
 }
 

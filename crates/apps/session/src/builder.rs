@@ -15,7 +15,8 @@ use periplus_sim::{
 use crate::description::describe;
 use crate::error::RunError;
 use crate::network::{
-    GazeboConnection, GazeboSettings, Ros1Connection, Ros1Reach, Ros1Value, Ros2Connection, Ros2Reach,
+    GazeboConnection, GazeboSettings, Ros1Connection, Ros1Reach, Ros1Value, Ros2Connection,
+    Ros2Reach,
 };
 use crate::nodes::{EstimatorRequest, Estimators, RobotProfile};
 use crate::page::{Page, PageContext, PageSettings};
@@ -304,11 +305,13 @@ impl SessionBuilder {
         joined.transpose()
     }
 
-    fn connect_ros1(&mut self, simulation: &Simulation) -> Result<Option<Ros1Connection>, RunError> {
+    fn connect_ros1(
+        &mut self,
+        simulation: &Simulation,
+    ) -> Result<Option<Ros1Connection>, RunError> {
         let parameters = std::mem::take(&mut self.ros1_parameters);
-        let join = |reach| {
-            Ros1Connection::join(simulation.graph(), reach, parameters, self.is_quiet)
-        };
+        let join =
+            |reach| Ros1Connection::join(simulation.graph(), reach, parameters, self.is_quiet);
         self.ros1.map(join).transpose()
     }
 

@@ -36,7 +36,8 @@ impl Registry {
             if next > 0 {
                 let _ = write!(text, "{SEPARATOR}\nMSG: {}\n", name.short());
             }
-            let parts = definition.constants.iter().map(|one| constant(one, &one.name, Scalar::name));
+            let parts =
+                definition.constants.iter().map(|one| constant(one, &one.name, Scalar::name));
             let fields = fields(definition, |name| Some(name.short()), &mut |name| {
                 if !order.contains(&name) {
                     order.push(name);
@@ -87,7 +88,8 @@ impl Registry {
                 self.sum(nested, sums)?;
             }
         }
-        let constants = definition.constants.iter().map(|one| constant(one, &one.name, Scalar::name));
+        let constants =
+            definition.constants.iter().map(|one| constant(one, &one.name, Scalar::name));
         let fields = fields(definition, |name| sums.get(name).cloned(), &mut |_| {})?;
         let lines: Vec<String> = constants.chain(fields).collect();
         Some(lines.join("\n"))

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use periplus_diagnostics::Diagnostic;
-use periplus_geometry::Pose;
+use periplus_geometry::{Pose, Pose2};
 use periplus_loader::{
     LoadContext, LoadedFile, load, load_bytes, settle_images, settle_parameter_files,
 };
@@ -83,6 +83,23 @@ impl Composition {
         let empty =
             |(file, loaded): &(usize, &LoadedFile)| loaded.diagnostics.has_errors() && !from(*file);
         self.files.iter().enumerate().find(empty).map(|(_, loaded)| loaded.path.as_path())
+    }
+
+    /// Puts the last robot at the first of these poses on the plane z = 0, and a copy of it at each other one. They
+    /// are named like it with numbers, and each has its name as namespace.
+    pub fn spread_last(&mut self, poses: &[Pose2]) {
+        let Some(robot) = self.members.pop() else { return };
+        let stand =
+            |pose: &Pose2| default_world::standing(&robot.model, pose.x_m, pose.y_m, pose.yaw_rad);
+        for (number, pose) in poses.iter().enumerate() {
+            let name = format!("{}_{number}", robot.name);
+            self.members.push(ModelInstance {
+                namespace: absolute(&name),
+                name,
+                world_from_model: stand(pose),
+                ..robot.clone()
+            });
+        }
     }
 
     /// Returns the real-time factor of the world; `None` if it is unlimited.

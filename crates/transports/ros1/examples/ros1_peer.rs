@@ -117,9 +117,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     match (way.as_str(), load.as_str()) {
         ("pub", "cloud") => publish(&wire, &node, cloud(), 30.0, duration),
         ("pub", _) => publish(&wire, &node, small(), 1000.0, duration),
-        (_, "cloud") => {
-            subscribe(&node, |cloud: &sensor_msgs::PointCloud2| cloud.data.len())
-        }
+        (_, "cloud") => subscribe(&node, |cloud: &sensor_msgs::PointCloud2| cloud.data.len()),
         _ => subscribe(&node, |one: &std_msgs::Float64MultiArray| 8 * one.data.len()),
     }
 }

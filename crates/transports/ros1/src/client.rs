@@ -106,7 +106,8 @@ impl MasterClient {
         }
         let calls = parameters.into_iter().map(|(key, value)| {
             let params = Value::List(vec![self.caller.as_str().into(), key.into(), value]);
-            let members = [("methodName".to_owned(), "setParam".into()), ("params".to_owned(), params)];
+            let members =
+                [("methodName".to_owned(), "setParam".into()), ("params".to_owned(), params)];
             Value::Struct(members.into())
         });
         let params = vec![Value::List(calls.collect())];

@@ -167,7 +167,8 @@ impl Attached {
         }
         let message = format!("ROS 1: the master {} was started anew", net.client.uri());
         net.shared.report(
-            Diagnostic::warning("ros1-master", message).help("everything is registered there again"),
+            Diagnostic::warning("ros1-master", message)
+                .help("everything is registered there again"),
         );
         self.topics.register_again(net, &self.ports);
         self.services.register_again(net, &self.ports);

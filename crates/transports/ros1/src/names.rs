@@ -30,8 +30,8 @@ pub fn ros1_type(ros2: &str) -> Option<String> {
         return Some((*ros1).to_owned());
     }
     let name = TypeName::read(ros2)?;
-    let is_offered = name.kind != InterfaceKind::Action
-        && !ROS2_PACKAGES.contains(&name.package.as_str());
+    let is_offered =
+        name.kind != InterfaceKind::Action && !ROS2_PACKAGES.contains(&name.package.as_str());
     is_offered.then(|| name.short())
 }
 
@@ -107,7 +107,10 @@ mod tests {
 
     #[test]
     fn types_have_their_names_in_both() {
-        assert_eq!(ros1_type("sensor_msgs/msg/LaserScan").as_deref(), Some("sensor_msgs/LaserScan"));
+        assert_eq!(
+            ros1_type("sensor_msgs/msg/LaserScan").as_deref(),
+            Some("sensor_msgs/LaserScan")
+        );
         assert_eq!(ros1_type("std_srvs/srv/Empty").as_deref(), Some("std_srvs/Empty"));
         assert_eq!(ros1_type("rcl_interfaces/msg/Log").as_deref(), Some("rosgraph_msgs/Log"));
         assert_eq!(ros1_type("rcl_interfaces/msg/ParameterEvent"), None);

@@ -65,11 +65,8 @@ impl NodePort {
         name: &str,
         events: Arc<dyn NodeEvents>,
     ) -> Result<Self, Ros1Error> {
-        let host = if place.host.contains(':') {
-            format!("[{}]", place.host)
-        } else {
-            place.host.clone()
-        };
+        let host =
+            if place.host.contains(':') { format!("[{}]", place.host) } else { place.host.clone() };
         let api = Arc::new(NodeApi {
             name: name.to_owned(),
             host,
@@ -134,9 +131,8 @@ impl Handler for NodeApi {
     fn call(&self, call: Call) -> Result<Value, Fault> {
         let texts: Vec<&str> = call.params.iter().map_while(Value::text).collect();
         let done = |value: Value| Ok(Value::List(vec![Value::Int(1), "".into(), value]));
-        let wrong = |text: String| {
-            Ok(Value::List(vec![Value::Int(-1), text.into(), Value::Int(0)]))
-        };
+        let wrong =
+            |text: String| Ok(Value::List(vec![Value::Int(-1), text.into(), Value::Int(0)]));
         match (call.method.as_str(), texts.as_slice()) {
             ("getPid", _) => done(process_id().into()),
             ("getMasterUri", _) => done(self.master_uri.clone().into()),
@@ -171,7 +167,8 @@ impl Handler for NodeApi {
             }
             ("requestTopic", &[_, topic]) => self.request_topic(topic, call.params.get(2)),
             (method, _) => {
-                let text = format!("method `{method}` is not supported, or its parameters are wrong");
+                let text =
+                    format!("method `{method}` is not supported, or its parameters are wrong");
                 Err(Fault { code: -1, text })
             }
         }
@@ -190,9 +187,8 @@ impl NodeApi {
     }
 
     fn request_topic(&self, topic: &str, protocols: Option<&Value>) -> Result<Value, Fault> {
-        let answer = |code, text: String, value| {
-            Ok(Value::List(vec![Value::Int(code), text.into(), value]))
-        };
+        let answer =
+            |code, text: String, value| Ok(Value::List(vec![Value::Int(code), text.into(), value]));
         if !lock(&self.publications).contains_key(topic) {
             let text = format!("{} does not publish [{topic}]", self.name);
             return answer(0, text, Value::Int(0));

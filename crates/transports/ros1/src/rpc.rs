@@ -125,7 +125,8 @@ mod tests {
         assert_eq!(host_and_port("http://localhost:11311"), here(11311));
         assert_eq!(host_and_port("rosrpc://localhost:4000"), here(4000));
         assert_eq!(host_and_port("http://[::1]:80/"), Some(("::1".to_owned(), 80)));
-        for wrong in ["localhost:11311", "http://localhost", "http://:1", "http://a:0", "ftp://a:1"] {
+        for wrong in ["localhost:11311", "http://localhost", "http://:1", "http://a:0", "ftp://a:1"]
+        {
             assert_eq!(host_and_port(wrong), None, "{wrong}");
         }
     }

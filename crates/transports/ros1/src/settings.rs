@@ -65,7 +65,8 @@ impl Settings {
                 }
             }
             (Ros1Reach::Machine, Some((variable, name))) if !is_here(&name) => {
-                let message = format!("the environment variable {variable} is `{name}` and is not used");
+                let message =
+                    format!("the environment variable {variable} is `{name}` and is not used");
                 findings.push(Diagnostic::warning("ros1-environment", message).help(
                     "only programs on this machine can connect; open the run to others with `--ros1 network`",
                 ));

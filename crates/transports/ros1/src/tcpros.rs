@@ -8,8 +8,8 @@ mod publication;
 mod service;
 mod subscription;
 
-pub(crate) use frame::{Frame, read_frame, read_frame_after};
 pub use frame::MAX_MESSAGE_BYTES;
+pub(crate) use frame::{Frame, read_frame, read_frame_after};
 pub use header::{Header, MAX_HEADER_BYTES, MalformedHeader};
 pub(crate) use header::{read_header, read_header_after};
 pub(crate) use publication::Publication;

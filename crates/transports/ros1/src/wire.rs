@@ -138,7 +138,9 @@ impl Ros1Transport {
         let client = MasterClient::new(&settings.master_uri, CALLER);
         let master = match client.ask("getPid", Vec::new()) {
             Ok(_) => None,
-            Err(RpcError::Unreachable(_)) if use_of_master == MasterUse::JoinOrStart && is_own(&host) => {
+            Err(RpcError::Unreachable(_))
+                if use_of_master == MasterUse::JoinOrStart && is_own(&host) =>
+            {
                 Some(Master::open(settings.address(), &settings.host, port)?)
             }
             Err(why) => return Err(Ros1Error::Master { uri: settings.master_uri.clone(), why }),

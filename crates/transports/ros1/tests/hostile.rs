@@ -9,7 +9,7 @@ use periplus_graph::{Graph, NodeSettings, Publisher, Qos};
 use periplus_msgs::std_msgs;
 use periplus_os::{Stopwatch, sleep};
 use periplus_ros1::{
-    Header, Master, MasterClient, MasterUse, RpcError, Ros1Transport, Settings, Value, ask,
+    Header, Master, MasterClient, MasterUse, Ros1Transport, RpcError, Settings, Value, ask,
     message_definition,
 };
 
@@ -115,7 +115,10 @@ fn twenty_subscribers_hear_everything_beside_stalled_ones() {
         .into_iter()
         .map(|stream| {
             std::thread::spawn(move || {
-                assert_eq!(Header::read(&read_frame(&stream)).expect("a header").get("latching"), "0");
+                assert_eq!(
+                    Header::read(&read_frame(&stream)).expect("a header").get("latching"),
+                    "0"
+                );
                 (0..100).map(|_| read_frame(&stream).len()).sum::<usize>()
             })
         })
@@ -200,8 +203,10 @@ fn a_publisher_that_lies_about_lengths_is_left() {
         for stream in api.incoming().flatten() {
             let mut request = [0; 4096];
             let _ = (&stream).read(&mut request);
-            let place = Value::List(vec!["TCPROS".into(), "127.0.0.1".into(), Value::Int(port.into())]);
-            let body = periplus_ros1::write_response(&Value::List(vec![Value::Int(1), "".into(), place]));
+            let place =
+                Value::List(vec!["TCPROS".into(), "127.0.0.1".into(), Value::Int(port.into())]);
+            let body =
+                periplus_ros1::write_response(&Value::List(vec![Value::Int(1), "".into(), place]));
             let head = format!("HTTP/1.1 200 OK\r\nContent-Length: {}\r\n\r\n", body.len());
             let _ = (&stream).write_all(format!("{head}{body}").as_bytes());
         }
@@ -212,7 +217,11 @@ fn a_publisher_that_lies_about_lengths_is_left() {
         for stream in listener.incoming().flatten() {
             let _ = read_frame(&stream);
             let sum = md5();
-            let header = Header::new(&[("callerid", "/liar"), ("md5sum", &sum), ("type", "std_msgs/String")]);
+            let header = Header::new(&[
+                ("callerid", "/liar"),
+                ("md5sum", &sum),
+                ("type", "std_msgs/String"),
+            ]);
             let _ = (&stream).write_all(&header.write());
             let _ = (&stream).write_all(&1_500_000_000_u32.to_le_bytes());
             let _ = (&stream).write_all(b"ab");

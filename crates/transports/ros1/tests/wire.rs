@@ -46,7 +46,8 @@ fn a_message_goes_from_one_program_to_the_other() {
     let ((here, _wire), (there, _other)) = (joined(&settings), joined(&settings));
     let talker = here.node(NodeSettings::new("talker").bare()).expect("a name");
     let listener = there.node(NodeSettings::new("listener").bare()).expect("a name");
-    let heard = listener.mailbox::<std_msgs::String>("/chatter", Qos::reliable(10)).expect("a topic");
+    let heard =
+        listener.mailbox::<std_msgs::String>("/chatter", Qos::reliable(10)).expect("a topic");
     let publisher = talker.publisher("/chatter", Qos::reliable(10)).expect("a topic");
     let text = wait_for(|| {
         publisher.publish(std_msgs::String { data: "hello".into() });
@@ -67,7 +68,8 @@ fn a_late_subscriber_gets_the_latched_map() {
     publisher.publish(map.clone());
     let (there, _other) = joined(&settings);
     let listener = there.node(NodeSettings::new("listener").bare()).expect("a name");
-    let heard = listener.mailbox::<nav_msgs::OccupancyGrid>("/map", Qos::latched(1)).expect("a topic");
+    let heard =
+        listener.mailbox::<nav_msgs::OccupancyGrid>("/map", Qos::latched(1)).expect("a topic");
     let got = wait_for(|| heard.latest());
     assert_eq!(*got, map);
 }

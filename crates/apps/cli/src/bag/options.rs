@@ -2,10 +2,10 @@
 
 use std::path::PathBuf;
 
+use crate::run_options::LiveNetworkOptions;
 use clap::{Args, Subcommand, ValueEnum};
 use periplus_bags::Style;
 use periplus_bags::files::{ChunkPacking, Packing, PackingMode, Storage};
-use crate::run_options::LiveNetworkOptions;
 
 /// Record, play, convert, cut, check and repair bags
 ///

@@ -227,8 +227,7 @@ impl Bridge {
                 if relay.publisher.is_none() {
                     let qos = offered(&from.live.graph, name, sample.publisher);
                     let hash = TypeRegistry::builtin().hash(&relay.type_name);
-                    let made =
-                        to.node.raw_publisher(name, &relay.type_name, hash.as_deref(), qos);
+                    let made = to.node.raw_publisher(name, &relay.type_name, hash.as_deref(), qos);
                     match made {
                         Ok(publisher) => {
                             to.own.insert(publisher.id());

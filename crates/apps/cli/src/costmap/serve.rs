@@ -13,8 +13,8 @@ use periplus_session::{NodeMonitor, PollSleep, stop};
 use super::floor_point;
 use crate::arguments;
 use crate::error::CliError;
-use crate::terminal::say;
 use crate::run_options::LiveNetworkOptions;
+use crate::terminal::say;
 
 /// Polling period.
 const POLL_SLEEP: PollSleep = PollSleep::fixed(Duration::from_millis(5));

@@ -61,8 +61,10 @@ fn launch(rest: &[String]) -> Reading {
         }
     }
     // At full speed programs of ROS 1 could not keep pace.
-    let is_free = words.iter().any(|word| matches!(word.as_str(), "--duration" | "--print" | "--show-args"));
-    let has_choice = words.iter().any(|word| word.starts_with("--ros1") || word.starts_with("--rtf"));
+    let is_free =
+        words.iter().any(|word| matches!(word.as_str(), "--duration" | "--print" | "--show-args"));
+    let has_choice =
+        words.iter().any(|word| word.starts_with("--ros1") || word.starts_with("--rtf"));
     if !is_free && !has_choice {
         words.push("--ros1".to_owned());
     }

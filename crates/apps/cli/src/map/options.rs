@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use clap::{Args, Subcommand};
 use periplus_maps::Distro;
 
-use crate::verbs::seconds;
 use crate::run_options::{LiveNetworkOptions, Ros1Use};
+use crate::verbs::seconds;
 
 /// Save, serve, inspect, convert and compare maps
 #[derive(Debug, Subcommand)]

@@ -25,7 +25,15 @@ pub(super) fn run(options: &ServeOptions, ros: Vec<String>) -> Result<ExitCode, 
     if let Some(name) = &options.file {
         say(&format!("`-f` saves a map; running `periplus map save -f {name}`"));
         let words = vec!["-f".to_owned(), name.clone()];
-        return super::save(&SaveOptions { distro: options.distro, timeout: None, ros1: options.network.choice(), words }, &ros);
+        return super::save(
+            &SaveOptions {
+                distro: options.distro,
+                timeout: None,
+                ros1: options.network.choice(),
+                words,
+            },
+            &ros,
+        );
     }
     let remaps = options.remaps.iter().flat_map(|rule| ["-r".to_owned(), rule.clone()]);
     let arguments = arguments::read(remaps.chain(ros).collect())?;

@@ -1,15 +1,8 @@
 //! Random goals on a map.
 
-use std::collections::VecDeque;
-
 use periplus_geometry::{Pose2, Stream};
-use periplus_grid::{Cell, OccupancyGrid, occupancy, squared_distances};
-
-/// Room around a goal beside the robot itself \[m\].
-const MARGIN_M: f64 = 0.1;
-
-/// Farthest cell from the start at which the search begins \[m\].
-const MAX_START_DISTANCE_M: f64 = 1.0;
+use periplus_grid::OccupancyGrid;
+use periplus_sim::reachable_cells;
 
 /// Draws poses on a map that a robot of a radius can reach from its start: where it has room in every heading, over a
 /// path with that room. Empty if there are none.
@@ -20,10 +13,7 @@ pub(super) fn random_goals(
     count: usize,
     seed: u64,
 ) -> Vec<Pose2> {
-    let room = (radius_m + MARGIN_M) / map.info.resolution_m;
-    let distances = squared_distances(map, |value| *value != occupancy::FREE);
-    let has_room = |index: usize| f64::from(distances.cells[index]) >= room * room;
-    let reachable = reachable(map, start, &has_room);
+    let reachable = reachable_cells(map, start, radius_m);
     if reachable.is_empty() {
         return Vec::new();
     }
@@ -38,47 +28,9 @@ pub(super) fn random_goals(
         .collect()
 }
 
-/// Cells that are connected to the one nearest to the start, in the order of their distance from it.
-fn reachable(map: &OccupancyGrid, start: Pose2, has_room: &dyn Fn(usize) -> bool) -> Vec<Cell> {
-    let info = &map.info;
-    let Some(first) = nearest(map, start, has_room) else { return Vec::new() };
-    let mut seen = vec![false; info.len()];
-    seen[info.index(first)] = true;
-    let (mut queue, mut found) = (VecDeque::from([first]), Vec::new());
-    while let Some(cell) = queue.pop_front() {
-        found.push(cell);
-        for (dx, dy) in [(1, 0), (-1, 0), (0, 1), (0, -1)] {
-            let next = cell.0.checked_add_signed(dx).zip(cell.1.checked_add_signed(dy));
-            let Some(next) = next.filter(|next| info.contains(*next)) else { continue };
-            let index = info.index(next);
-            if !seen[index] && has_room(index) {
-                seen[index] = true;
-                queue.push_back(next);
-            }
-        }
-    }
-    found
-}
-
-/// Cell with room that is nearest to a pose.
-fn nearest(map: &OccupancyGrid, start: Pose2, has_room: &dyn Fn(usize) -> bool) -> Option<Cell> {
-    let info = &map.info;
-    let cells = (0..info.len()).map(|index| info.cell(index));
-    let squared_m2 = |cell: Cell| {
-        let (x_m, y_m) = info.centre_of(cell);
-        let (dx_m, dy_m) = (x_m - start.x_m, y_m - start.y_m);
-        dx_m * dx_m + dy_m * dy_m
-    };
-    let near = cells.filter(|cell| {
-        has_room(info.index(*cell))
-            && squared_m2(*cell) <= MAX_START_DISTANCE_M * MAX_START_DISTANCE_M
-    });
-    near.min_by(|one, two| squared_m2(*one).total_cmp(&squared_m2(*two)))
-}
-
 #[cfg(test)]
 mod tests {
-    use periplus_grid::{Grid, GridInfo};
+    use periplus_grid::{Grid, GridInfo, occupancy};
 
     use super::*;
 

@@ -43,7 +43,10 @@ fn request(layout: &Layout, words: &[String]) -> Result<String, String> {
     let fields: Vec<&str> = layout.fields().collect();
     match words {
         [] => return Ok("{}".to_owned()),
-        [one] if one.trim_start().starts_with('{') || fields.iter().any(|field| one.contains(&format!("{field}:"))) => {
+        [one]
+            if one.trim_start().starts_with('{')
+                || fields.iter().any(|field| one.contains(&format!("{field}:"))) =>
+        {
             return Ok(one.clone());
         }
         _ => {}

@@ -103,7 +103,8 @@ fn flow(out: &mut String, value: &Value) {
         Value::Double(number) => _ = write!(out, "{number:?}"),
         Value::Text(text) | Value::Time(text) => out.push_str(&scalar(text)),
         Value::Binary(bytes) => {
-            let _ = write!(out, "[{}]", bytes.iter().map(u8::to_string).collect::<Vec<_>>().join(", "));
+            let _ =
+                write!(out, "[{}]", bytes.iter().map(u8::to_string).collect::<Vec<_>>().join(", "));
         }
         Value::List(list) => {
             out.push('[');

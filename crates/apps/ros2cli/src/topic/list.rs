@@ -56,7 +56,9 @@ pub fn list(session: &mut Session<'_>, options: TopicListOptions) -> Outcome {
         session.out.flush()?;
         return Ok(());
     }
-    let titles = topics.iter().map(|one| titled(&one.name, &session.shown_types(&one.types), options.show_types));
+    let titles = topics
+        .iter()
+        .map(|one| titled(&one.name, &session.shown_types(&one.types), options.show_types));
     session.put_list("topic", &titles.collect::<Vec<_>>(), options.count)
 }
 

@@ -57,7 +57,8 @@ impl Recoding {
     /// When the message cannot be decoded or encoded.
     pub fn convert(&self, data: &[u8], out: &mut Vec<u8>) -> Result<(), RecodeError> {
         let Some(adaptation) = &self.adaptation else {
-            return recode(&self.source, self.from, data, self.to, out).map_err(RecodeError::Decode);
+            return recode(&self.source, self.from, data, self.to, out)
+                .map_err(RecodeError::Decode);
         };
         let message = DynamicMessage::decode(&self.source, self.from, data);
         let message = adaptation.apply(message.map_err(RecodeError::Decode)?);

@@ -1,9 +1,7 @@
 //! Log messages: the levels are 10, 20, ... in ROS 2, and 1, 2, 4, 8, 16 in ROS 1.
 
 use periplus_msgs::rcl_interfaces::Log;
-use periplus_msgs::{
-    DynamicMessage, Format, Message, Number, RecodeError, TypeRegistry, Value,
-};
+use periplus_msgs::{DynamicMessage, Format, Message, Number, RecodeError, TypeRegistry, Value};
 
 /// Level in ROS 2 by that in ROS 1.
 const LEVELS: [(u8, u8); 5] = [(1, 10), (2, 20), (4, 30), (8, 40), (16, 50)];
@@ -33,7 +31,8 @@ fn text(out: &mut Vec<u8>, text: &str) {
 
 pub(super) fn to_ros2(message: &[u8], out: &mut Vec<u8>) -> Result<(), RecodeError> {
     let Some(layout) = TypeRegistry::ros1().layout("rosgraph_msgs/msg/Log") else { return Ok(()) };
-    let read = DynamicMessage::decode(layout, Format::Ros1, message).map_err(RecodeError::Decode)?;
+    let read =
+        DynamicMessage::decode(layout, Format::Ros1, message).map_err(RecodeError::Decode)?;
     let number = |path: &str| match read.get(path) {
         Some(Value::Number(Number::I8(number))) => number.into(),
         Some(Value::Number(Number::U8(number))) => number.into(),

@@ -267,7 +267,8 @@ impl Caller {
         let open = match connection.take() {
             Some(open) => open,
             None => {
-                let open = ServiceConnection::open(&self.uri, CALLER, &self.name, &self.md5, false)?;
+                let open =
+                    ServiceConnection::open(&self.uri, CALLER, &self.name, &self.md5, false)?;
                 *lock(&self.stream) = Some(open.stream()?);
                 open
             }

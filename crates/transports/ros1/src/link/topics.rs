@@ -127,13 +127,7 @@ impl Topics {
         Some(Publishing { ids, outgoing, qos, of: of.to_owned() })
     }
 
-    fn sync_subscriptions(
-        &self,
-        net: &Net,
-        ports: &mut Ports,
-        node: &Node,
-        topics: &[TopicInfo],
-    ) {
+    fn sync_subscriptions(&self, net: &Net, ports: &mut Ports, node: &Node, topics: &[TopicInfo]) {
         let mut all = lock(&self.subscribing);
         let mut gone: BTreeSet<String> = all.keys().cloned().collect();
         for topic in topics {
@@ -144,8 +138,10 @@ impl Topics {
                 continue;
             }
             gone.remove(&topic.name);
-            let asks_latched =
-                topic.subscriptions.iter().any(|end| end.qos.durability == Durability::TransientLocal);
+            let asks_latched = topic
+                .subscriptions
+                .iter()
+                .any(|end| end.qos.durability == Durability::TransientLocal);
             let one = match all.entry(topic.name.clone()) {
                 Entry::Occupied(place) => place.into_mut(),
                 Entry::Vacant(place) => {
@@ -170,7 +166,12 @@ impl Topics {
                     });
                     let subscription =
                         Subscription::new(first.name(), &topic.name, of.clone(), receiver);
-                    place.insert(Subscribing { of, nodes: BTreeMap::new(), is_latched, subscription })
+                    place.insert(Subscribing {
+                        of,
+                        nodes: BTreeMap::new(),
+                        is_latched,
+                        subscription,
+                    })
                 }
             };
             one.is_latched.store(asks_latched, Ordering::Relaxed);
@@ -376,8 +377,7 @@ impl Receiver for GraphReceiver {
         } else {
             Qos::reliable(DEPTH)
         };
-        let made =
-            self.node.raw_publisher(&self.topic, &self.of, self.type_hash.as_deref(), qos);
+        let made = self.node.raw_publisher(&self.topic, &self.of, self.type_hash.as_deref(), qos);
         let made = made.map_err(|error| error.to_string())?;
         lock(&self.foreign).insert(made.id());
         let feed = Feed { publisher: made, foreign: self.foreign.clone() };
@@ -389,7 +389,8 @@ impl Receiver for GraphReceiver {
             match codec.convert(message, &mut cdr) {
                 Ok(()) => feed.publisher.publish(cdr),
                 Err(error) if !std::mem::replace(&mut is_told, true) => {
-                    let message = format!("a message of {publisher} on `{topic}` is malformed: {error}");
+                    let message =
+                        format!("a message of {publisher} on `{topic}` is malformed: {error}");
                     shared.report(Diagnostic::warning("ros1-message", message));
                 }
                 Err(_) => {}
@@ -400,8 +401,9 @@ impl Receiver for GraphReceiver {
     fn complain(&self, publisher: &str, why: &str) {
         let message = format!("`{}` is not received from {publisher}: {why}", self.topic);
         self.shared.report(
-            Diagnostic::warning("type-mismatch", message)
-                .help("compare the types with `rostopic info`; both sides need the same definition"),
+            Diagnostic::warning("type-mismatch", message).help(
+                "compare the types with `rostopic info`; both sides need the same definition",
+            ),
         );
     }
 }

@@ -50,9 +50,8 @@ impl Parameters {
                 *place = Value::Struct(BTreeMap::new());
             }
             let Value::Struct(members) = place else { return changes };
-            place = members
-                .entry(part.to_owned())
-                .or_insert_with(|| Value::Struct(BTreeMap::new()));
+            place =
+                members.entry(part.to_owned()).or_insert_with(|| Value::Struct(BTreeMap::new()));
         }
         *place = value;
         changes

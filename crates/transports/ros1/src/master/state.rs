@@ -168,9 +168,7 @@ impl MasterState {
                 let has = self.parameters.get(&resolve(key, caller)).is_some();
                 Done(key.to_owned(), has.into())
             }
-            ("getParamNames", _) => {
-                Done("Parameter names".into(), self.parameters.names().into())
-            }
+            ("getParamNames", _) => Done("Parameter names".into(), self.parameters.names().into()),
             (known, _) if METHODS.contains(&known) => {
                 let kinds: Vec<&str> = params.iter().map(Value::kind).collect();
                 Wrong(format!("got {} parameters: {}", params.len(), kinds.join(", ")))
@@ -376,10 +374,8 @@ mod tests {
         let (count, _) = ask(&mut state, "unregisterPublisher", &["/lidar", "/scan", B]);
         assert_eq!(count, Value::Int(0));
         state.drop_idle_nodes();
-        let (found, _) = state.call(Call {
-            method: "lookupNode".into(),
-            params: vec!["/x".into(), "/lidar".into()],
-        });
+        let (found, _) = state
+            .call(Call { method: "lookupNode".into(), params: vec!["/x".into(), "/lidar".into()] });
         assert!(matches!(found, Ok(Value::List(parts)) if parts[0] == Value::Int(-1)));
     }
 
@@ -387,7 +383,8 @@ mod tests {
     fn a_second_node_of_a_name_ends_the_first() {
         let mut state = MasterState::new("http://here:11311/");
         ask(&mut state, "registerService", &["/lamp", "on", "rosrpc://here:5", A]);
-        let (_, out) = ask(&mut state, "registerPublisher", &["/lamp", "state", "std_msgs/Bool", B]);
+        let (_, out) =
+            ask(&mut state, "registerPublisher", &["/lamp", "state", "std_msgs/Bool", B]);
         assert_eq!(out.len(), 1);
         assert_eq!((out[0].address.as_str(), out[0].call.method.as_str()), (A, "shutdown"));
         let (answer, _) = state

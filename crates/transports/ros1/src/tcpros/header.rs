@@ -59,7 +59,8 @@ impl Header {
             }
             let (field, rest) = rest.split_at(length);
             let field = String::from_utf8_lossy(field);
-            let (name, value) = field.split_once('=').ok_or(MalformedHeader("a field has no `=`"))?;
+            let (name, value) =
+                field.split_once('=').ok_or(MalformedHeader("a field has no `=`"))?;
             fields.insert(name.to_owned(), value.to_owned());
             bytes = rest;
         }

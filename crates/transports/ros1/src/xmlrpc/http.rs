@@ -146,7 +146,10 @@ mod tests {
         let text = "POST /RPC2 HTTP/1.1\r\nHost: here\r\nContent-length: 3\r\n\r\nabcPOST";
         let mut reader = text.as_bytes();
         let head = read_head(&mut reader, true).expect("HTTP").expect("a head");
-        assert_eq!((head.method.as_str(), head.body_bytes, head.keeps_open), ("POST", Some(3), true));
+        assert_eq!(
+            (head.method.as_str(), head.body_bytes, head.keeps_open),
+            ("POST", Some(3), true)
+        );
         assert_eq!(read_body(&mut reader, &head).expect("a body"), b"abc");
         assert_eq!(reader, b"POST");
     }

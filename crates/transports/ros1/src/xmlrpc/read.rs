@@ -179,10 +179,7 @@ mod tests {
     #[test]
     fn what_is_wrong_is_named() {
         let error = |body: &str| read_call(body.as_bytes()).unwrap_err().0;
-        assert_eq!(
-            error("<methodResponse/>"),
-            "<methodResponse> in place of <methodCall>"
-        );
+        assert_eq!(error("<methodResponse/>"), "<methodResponse> in place of <methodCall>");
         assert_eq!(error("<methodCall/>"), "<methodCall> has no <methodName>");
         let call = |value: &str| {
             format!(

@@ -50,8 +50,9 @@ mod tests {
         assert_eq!(value_of(&json!(3)), Value::Int(3));
         assert_eq!(value_of(&json!(3.0)), Value::Double(3.0));
         assert_eq!(value_of(&json!(3_000_000_000_i64)), Value::Double(3e9));
-        assert_eq!(value_of(&json!({"a": [true]})), Value::Struct(
-            [("a".to_owned(), Value::List(vec![Value::Bool(true)]))].into()
-        ));
+        assert_eq!(
+            value_of(&json!({"a": [true]})),
+            Value::Struct([("a".to_owned(), Value::List(vec![Value::Bool(true)]))].into())
+        );
     }
 }
