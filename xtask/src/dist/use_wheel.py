@@ -24,7 +24,8 @@ for _ in range(5):
     simulation.run(1.0)
     slam.process(lidar.read(), simulation.lookup_transform("odom", "base_link"))
 cells = slam.map().cells
-assert (cells == 100).sum() > 20, "no walls in the map"
+# Percent; walls are at 65 and above.
+assert (cells >= 65).sum() > 20, "no walls in the map"
 
 command = shutil.which("periplus", path=str(Path(sys.executable).parent))
 assert command, "the wheel installed no command"
