@@ -1,0 +1,96 @@
+//! Conversion of robot and world files of Gazebo Classic to current Gazebo (Harmonic, gz-sim 8).
+//!
+//! Files are edited, not rewritten: everything outside of the converted elements keeps its bytes, also comments, macros of
+//! xacro and expressions such as `${radius}` in the values of plugins. [`migrate`] converts one file. The same function on
+//! the expanded robot gives the topics of the bridge with their final names.
+//!
+//! ```
+//! use periplus_migration::{MigrationContext, MigrationOutcome, migrate};
+//! use periplus_resources::{MemoryHost, Resolver};
+//!
+//! let old = r#"<sdf version="1.6"><model name="m"><plugin name="states"
+//!   filename="libgazebo_ros_joint_state_publisher.so"><joint_name>arm</joint_name></plugin></model></sdf>"#;
+//! let host = MemoryHost::new();
+//! let resolver = Resolver::new(&host, &[]);
+//! let context = MigrationContext::new("/m.sdf".as_ref(), &host, &resolver);
+//! let migrated = migrate(old, &context).expect("XML");
+//! assert!(migrated.text.contains("gz::sim::systems::JointStatePublisher"));
+//! assert_eq!(migrated.entries[0].outcome, MigrationOutcome::Converted);
+//! assert_eq!(migrated.bridge[0].ros_topic_name, "/joint_states");
+//! ```
+
+mod bridge;
+mod edits;
+mod entry;
+mod material;
+mod ogre;
+mod old_plugin;
+mod plugin;
+mod population;
+mod replacement;
+mod sensor;
+mod source;
+mod template;
+mod transmission;
+mod walk;
+mod world;
+
+#[cfg(test)]
+mod tests;
+
+use std::path::Path;
+
+use periplus_diagnostics::{Diagnostics, SourceMap};
+use periplus_plugin_specs::Family;
+use periplus_resources::{Host, Resolver};
+
+pub use bridge::{BridgeDirection, BridgeEntry, bridge_yaml, clock_bridge};
+pub use entry::{ExpectedDifference, MigrationEntry, MigrationOutcome, TopicAspect};
+
+/// Topic name in [`ExpectedDifference`] for a difference of the motion, which all measured values show.
+pub const ALL_TOPICS: &str = "/*";
+
+/// File to convert, with its surroundings.
+#[derive(Clone, Copy)]
+pub struct MigrationContext<'a> {
+    /// Absolute path of the file; names in reports and material scripts are relative to its folder.
+    pub path: &'a Path,
+    /// Files that materials name.
+    pub host: &'a dyn Host,
+    /// Packages and models.
+    pub resolver: &'a Resolver<'a>,
+    /// ROS version of plugins that exist for both, determined by the whole robot; `None`: by the file itself.
+    pub ros: Option<Family>,
+    /// True if the robot runs `gazebo_ros_control`, which reads `<transmission>`.
+    pub has_ros_control: bool,
+}
+
+impl<'a> MigrationContext<'a> {
+    /// Context of a single file.
+    #[must_use]
+    pub fn new(path: &'a Path, host: &'a dyn Host, resolver: &'a Resolver<'a>) -> Self {
+        Self { path, host, resolver, ros: None, has_ros_control: false }
+    }
+}
+
+/// Converted file.
+#[derive(Clone, Debug)]
+pub struct Migrated {
+    /// New text.
+    pub text: String,
+    /// Converted elements, in file order.
+    pub entries: Vec<MigrationEntry>,
+    /// Topics for the bridge; with expressions of xacro where the file has them.
+    pub bridge: Vec<BridgeEntry>,
+    /// Differences of topics that the conversion causes knowingly.
+    pub expected: Vec<ExpectedDifference>,
+}
+
+/// Converts the text of a robot, model or world file: URDF, xacro or SDF. `None` if it is not XML.
+#[must_use]
+pub fn migrate(text: &str, context: &MigrationContext<'_>) -> Option<Migrated> {
+    let mut sources = SourceMap::new();
+    let file = sources.add(context.path.display().to_string(), text);
+    let document = periplus_xml::parse(file, &sources, &mut Diagnostics::new())?;
+    walk::walk(&document, sources.file(file), context)
+}
