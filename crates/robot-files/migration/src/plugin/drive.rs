@@ -188,6 +188,7 @@ pub(super) fn differential(plugin: &OldPlugin<'_>) -> Replacement {
         }
         replacement.elements.push(states);
         replacement.to_ros(&topic, &topic, JOINT_STATES);
+        replacement.expects(&topic, TopicAspect::Fields, super::state::EFFORTS);
     }
     replacement
 }

@@ -23,8 +23,12 @@ pub(super) fn joint_states(plugin: &OldPlugin<'_>) -> Replacement {
     }
     replacement.elements.push(states);
     replacement.to_ros(&topic, &topic, JOINT_STATES);
+    replacement.expects(&topic, TopicAspect::Fields, EFFORTS);
     replacement
 }
+
+/// Difference of joint states.
+pub(super) const EFFORTS: &str = "JointStatePublisher publishes velocities and efforts, too";
 
 /// `gazebo_ros_p3d`.
 pub(super) fn true_pose(plugin: &OldPlugin<'_>) -> Replacement {
