@@ -1,5 +1,6 @@
 //! Walk through the elements of a file.
 
+mod bodies;
 mod materials;
 mod sensors;
 mod worlds;
@@ -24,6 +25,8 @@ struct Walker<'a> {
     bridge: Vec<BridgeEntry>,
     expected: Vec<ExpectedDifference>,
     ros: Option<Family>,
+    /// True for a version of SDF from before the first release of current Gazebo.
+    is_old_version: bool,
     /// Changes of the sensor that is being converted.
     sensor_changes: Vec<SensorChange>,
     /// True if a plugin gave that sensor a topic.
@@ -35,6 +38,15 @@ pub(crate) fn walk(
     file: &SourceFile,
     context: &MigrationContext<'_>,
 ) -> Option<Migrated> {
+    if is_for_current_gazebo(&document.root) {
+        let text = file.text.to_string();
+        return Some(Migrated {
+            text,
+            entries: Vec::new(),
+            bridge: Vec::new(),
+            expected: Vec::new(),
+        });
+    }
     let mut walker = Walker {
         file,
         context,
@@ -43,6 +55,7 @@ pub(crate) fn walk(
         bridge: Vec::new(),
         expected: Vec::new(),
         ros: context.ros,
+        is_old_version: document.root.value("version").is_some_and(is_old_version),
         sensor_changes: Vec::new(),
         has_topic: false,
     };
@@ -64,6 +77,35 @@ pub(crate) fn walk(
     Some(Migrated { text, entries, bridge, expected })
 }
 
+/// True for SDF up to 1.6, the version of Gazebo Classic 9.
+fn is_old_version(version: &str) -> bool {
+    let minor = version.trim().strip_prefix("1.").and_then(|minor| minor.parse::<u32>().ok());
+    minor.is_some_and(|minor| minor <= 6)
+}
+
+/// True for a file with plugins of current Gazebo and none of Gazebo Classic: old spellings that it may have are known to
+/// libsdformat.
+fn is_for_current_gazebo(root: &Element) -> bool {
+    let (mut current, mut classic) = (0, 0);
+    count_plugins(root, &mut current, &mut classic);
+    current > 0 && classic == 0
+}
+
+fn count_plugins(element: &Element, current: &mut usize, classic: &mut usize) {
+    for child in element.elements() {
+        if child.name == "plugin" && child.attribute("filename").is_some() {
+            let old = OldPlugin::read(child, Surroundings::default(), None);
+            match old.spec {
+                _ if plugin::replacement(&old).is_none() => *current += 1,
+                Some(_) => *classic += 1,
+                None => {}
+            }
+        } else {
+            count_plugins(child, current, classic);
+        }
+    }
+}
+
 impl<'a> Walker<'a> {
     fn children(&mut self, element: &'a Element, around: Surroundings<'a>) {
         for child in element.elements() {
@@ -82,6 +124,9 @@ impl<'a> Walker<'a> {
             "model" => self.children(element, Surroundings { model: Some(element), ..around }),
             "link" => {
                 let reference = element.value("name").or(around.reference);
+                if !around.is_urdf {
+                    self.inertia(element, around);
+                }
                 self.children(element, Surroundings { reference, ..around });
             }
             "gazebo" if around.is_urdf => {

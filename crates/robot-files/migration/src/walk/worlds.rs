@@ -44,10 +44,10 @@ impl<'a> Walker<'a> {
                 }
             }
         }
-        // A world that has only systems of current Gazebo is left as it is.
-        let runs_systems = element.named("plugin").any(is_system);
         let systems = missing_systems(element);
-        if systems.is_empty() || runs_systems && self.entries.len() == before {
+        // A recent world without any sign of Gazebo Classic gets the default systems of gz-sim.
+        let is_classic = self.entries.len() > before || self.is_old_version;
+        if systems.is_empty() || !is_classic {
             return;
         }
         let new = systems.iter().map(words).collect::<Vec<_>>().join(", ");
@@ -218,11 +218,6 @@ impl<'a> Walker<'a> {
 fn is_current(plugin: &Element) -> bool {
     let old = OldPlugin::read(plugin, Surroundings::default(), None);
     crate::plugin::replacement(&old).is_none()
-}
-
-/// True for a system of current Gazebo.
-fn is_system(plugin: &Element) -> bool {
-    plugin.attribute("filename").is_some() && is_current(plugin)
 }
 
 /// Name that an include gives its model by default: that of the folder, in nearly all models.

@@ -2,9 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
+use periplus_diagnostics::Diagnostics;
 use periplus_loader::{FileFormat, LoadContext, LoadedFile, load};
 use periplus_migration::{
-    BridgeEntry, ExpectedDifference, MigrationContext, MigrationEntry, migrate,
+    BridgeEntry, ExpectedDifference, Migrated, MigrationContext, MigrationEntry, MigrationOutcome,
+    migrate,
 };
 use periplus_os::Machine;
 use periplus_plugin_specs::{Family, library_id, sites};
@@ -112,6 +114,7 @@ impl Project {
                 }
                 continue;
             };
+            let migrated = if path == main { self.upgraded(migrated, &context) } else { migrated };
             self.entries.extend(migrated.entries);
             if !is_expanded {
                 self.bridge.extend(migrated.bridge);
@@ -142,6 +145,37 @@ impl Project {
         }
         self.bridge = seen;
         Ok(())
+    }
+
+    /// Rewrites a file whose root is `<gazebo>`, which no libsdformat of current Gazebo reads.
+    fn upgraded(&self, migrated: Migrated, context: &MigrationContext<'_>) -> Migrated {
+        let root = self.loaded.document.as_ref().map(|document| &document.root);
+        let Some(root) = root.filter(|root| root.local_name() == "gazebo") else { return migrated };
+        let Some(scene) = &self.loaded.scene else { return migrated };
+        if self.loaded.diagnostics.has_errors() {
+            return migrated;
+        }
+        let mut diagnostics = Diagnostics::new();
+        let mut document = periplus_sdf::write(scene, &mut diagnostics);
+        periplus_sdf::use_plain_names(&mut document, &mut diagnostics);
+        let Some(rewritten) = migrate(&write_document(&document), context) else { return migrated };
+        let version = root.value("version").unwrap_or_default();
+        let position = root.origin.0.map(|span| self.loaded.sources.locate(span).1);
+        let entry = MigrationEntry {
+            file: context.path.display().to_string(),
+            line: position.map_or(1, |position| position.line),
+            column: position.map_or(1, |position| position.column),
+            old: format!("<gazebo version {version}>"),
+            new: "<sdf>".to_owned(),
+            outcome: MigrationOutcome::Converted,
+            remarks: vec![
+                "libsdformat does not read this version any more: the whole file was rewritten in a new one, with \
+                 included models in place; its comments and layout are lost"
+                    .to_owned(),
+            ],
+        };
+        let entries = std::iter::once(entry).chain(migrated.entries).collect();
+        Migrated { text: rewritten.text, entries, ..migrated }
     }
 
     /// ROS version of the plugins, and whether `ros_control` runs.
