@@ -24,6 +24,8 @@ pub struct MigratedLaunch {
     /// Files of robots and worlds that it names, as `package://NAME/PATH` or paths; without those that depend on arguments
     /// without a default.
     pub references: Vec<String>,
+    /// Launch files that it includes, in the same form.
+    pub includes: Vec<String>,
 }
 
 /// Converts a launch file of ROS 1; `path` is its name in the report. `None` if it is not a `<launch>` in XML.
@@ -40,6 +42,7 @@ pub fn migrate_launch(text: &str, path: &str) -> Option<MigratedLaunch> {
         entries: Vec::new(),
         defaults: Vec::new(),
         references: Vec::new(),
+        includes: Vec::new(),
         needs_words: false,
         is_simulating: false,
         modules: Vec::new(),
@@ -51,7 +54,12 @@ pub fn migrate_launch(text: &str, path: &str) -> Option<MigratedLaunch> {
     }
     let text = launch.module(&actions);
     launch.entries.sort_by_key(|entry| (entry.line, entry.column));
-    Some(MigratedLaunch { text, entries: launch.entries, references: launch.references })
+    Some(MigratedLaunch {
+        text,
+        entries: launch.entries,
+        references: launch.references,
+        includes: launch.includes,
+    })
 }
 
 /// Values that hold for the following elements of a scope.
@@ -68,6 +76,7 @@ struct LaunchWriter<'a> {
     /// Defaults and values of arguments.
     defaults: Vec<(String, String)>,
     references: Vec<String>,
+    includes: Vec<String>,
     /// True if arguments of nodes are split when they are known.
     needs_words: bool,
     /// True if the file starts or fills a simulation.
@@ -323,15 +332,27 @@ impl LaunchWriter<'_> {
 
     /// Remembers a file of a robot or world.
     fn refer(&mut self, path: &str) {
+        if let Some(uri) = self.uri(path).filter(|uri| !self.references.contains(uri)) {
+            self.references.push(uri);
+        }
+    }
+
+    /// Remembers an included launch file.
+    fn includes(&mut self, path: &str) {
+        if let Some(uri) = self.uri(path).filter(|uri| !self.includes.contains(uri)) {
+            self.includes.push(uri);
+        }
+    }
+
+    /// A path with the values of arguments; `None` if some are unknown.
+    fn uri(&self, path: &str) -> Option<String> {
         let path = self.with_defaults(path);
         let path = path.trim().trim_matches(['\'', '"']);
         let uri = match path.strip_prefix("$(find ").and_then(|rest| rest.split_once(')')) {
             Some((package, rest)) => format!("package://{package}{rest}"),
             None => path.to_owned(),
         };
-        if !uri.contains("$(") && !self.references.contains(&uri) {
-            self.references.push(uri);
-        }
+        (!uri.contains("$(")).then_some(uri)
     }
 }
 

@@ -39,6 +39,7 @@ mod world;
 #[cfg(test)]
 mod tests;
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use periplus_diagnostics::{Diagnostics, SourceMap};
@@ -65,13 +66,42 @@ pub struct MigrationContext<'a> {
     pub ros: Option<Family>,
     /// True if the robot runs `gazebo_ros_control`, which reads `<transmission>`.
     pub has_ros_control: bool,
+    /// Joints of the robot, where they are known: some plugins measured them.
+    pub joints: Option<&'a BTreeMap<String, JointGeometry>>,
 }
+
+/// Joint at the zero position of a model, and the wheel on it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JointGeometry {
+    /// Position in the frame of the model \[m\].
+    pub position_m: [f64; 3],
+    /// Radius of the first round collision of the child link \[m\].
+    pub wheel_radius_m: Option<f64>,
+}
+
+/// Distance below which two joints are on the same side \[m\].
+const MIN_DISTANCE_M: f64 = 1e-6;
 
 impl<'a> MigrationContext<'a> {
     /// Context of a single file.
     #[must_use]
     pub fn new(path: &'a Path, host: &'a dyn Host, resolver: &'a Resolver<'a>) -> Self {
-        Self { path, host, resolver, ros: None, has_ros_control: false }
+        Self { path, host, resolver, ros: None, has_ros_control: false, joints: None }
+    }
+
+    /// True if a joint is to the left of another; `None` if it is unknown.
+    pub(crate) fn is_left_of(&self, one: &str, other: &str) -> Option<bool> {
+        let joints = self.joints?;
+        let apart_m = joints.get(one)?.position_m[1] - joints.get(other)?.position_m[1];
+        (apart_m.abs() > MIN_DISTANCE_M).then_some(apart_m > 0.0)
+    }
+
+    /// Distance of two joints \[m\].
+    pub(crate) fn separation_m(&self, one: &str, other: &str) -> Option<f64> {
+        let joints = self.joints?;
+        let [a, b] = [joints.get(one)?.position_m, joints.get(other)?.position_m];
+        let squares = a.iter().zip(b).map(|(a, b)| (a - b) * (a - b));
+        Some(squares.sum::<f64>().sqrt()).filter(|distance| *distance > MIN_DISTANCE_M)
     }
 }
 

@@ -28,6 +28,8 @@ pub(crate) struct Surroundings<'a> {
     pub(crate) is_urdf: bool,
     /// True in an element of xacro that runs on a condition.
     pub(crate) is_conditional: bool,
+    /// Macro whose argument contains the element.
+    pub(crate) macro_name: Option<&'a str>,
 }
 
 /// Plugin of Gazebo Classic.
@@ -68,12 +70,10 @@ impl<'a> OldPlugin<'a> {
         };
         let context = PluginContext { ros, ..PluginContext::NOWHERE };
         let spec = recognise(&plugin, &context);
-        // Cameras are named by their sensor unless the plugin names them.
-        let name = match spec.map(|spec| spec.family) {
-            Some(Family::ClassicRos1) => "cameraName",
-            _ => "camera_name",
-        };
+        // Cameras of ROS 2 are named by their sensor unless the plugin names them.
+        let name = "camera_name";
         if let (Some(spec), Some(sensor)) = (spec, surroundings.sensor)
+            && spec.family == Family::ClassicRos2
             && spec.table.find(name).is_some()
             && plugin.value(name).is_none_or(|value| value.is_empty())
         {
@@ -98,14 +98,22 @@ impl<'a> OldPlugin<'a> {
     pub(crate) fn text(&self, names: &[&str]) -> Option<String> {
         names
             .iter()
+            .filter(|name| self.reads(name))
             .find_map(|name| self.plugin.value(name))
             .map(Cow::into_owned)
             .filter(|text| !text.is_empty())
     }
 
+    /// True if the plugin reads a parameter: names of the other ROS version have no effect.
+    fn reads(&self, name: &str) -> bool {
+        self.spec.is_none_or(|spec| spec.open || spec.table.find(name).is_some())
+    }
+
     /// Texts of all parameters of a name.
     pub(crate) fn texts(&self, name: &str) -> Vec<String> {
-        let named = self.plugin.content.iter().filter(|element| element.name == name);
+        let is_read = self.reads(name);
+        let content = self.plugin.content.iter();
+        let named = content.filter(|element| is_read && element.name == name);
         named.map(|element| element.text().into_owned()).collect()
     }
 

@@ -10,21 +10,23 @@ use periplus_plugin_specs::{Family, Role};
 use crate::entry::MigrationOutcome;
 use crate::old_plugin::OldPlugin;
 use crate::replacement::Replacement;
-use crate::sensor;
+use crate::{MigrationContext, sensor};
 
 /// Replacement of a plugin. `None` for plugins of current Gazebo, which stay.
-pub(crate) fn replacement(plugin: &OldPlugin<'_>) -> Option<Replacement> {
-    let Some(spec) = plugin.spec else {
-        let is_current = is_current(&plugin.plugin.filename);
-        return (!is_current).then(|| unknown(plugin));
-    };
-    if spec.family == Family::Gz {
+pub(crate) fn replacement(
+    plugin: &OldPlugin<'_>,
+    context: &MigrationContext<'_>,
+) -> Option<Replacement> {
+    if !is_classic(plugin) {
         return None;
     }
+    let Some(spec) = plugin.spec else { return Some(unknown(plugin)) };
     let mut replacement = match spec.id {
-        "gazebo_ros_diff_drive" | "gazebo_ros_skid_steer_drive" => drive::differential(plugin),
+        "gazebo_ros_diff_drive" | "gazebo_ros_skid_steer_drive" => {
+            drive::differential(plugin, context)
+        }
         "gazebo_ros_planar_move" => drive::planar(plugin),
-        "DiffDrivePlugin" | "SkidSteerDrivePlugin" => drive::classic(plugin),
+        "DiffDrivePlugin" | "SkidSteerDrivePlugin" => drive::classic(plugin, context),
         "gazebo_ros_ackermann_drive" | "gazebo_ros_tricycle_drive" => drive::steered(plugin),
         "gazebo_ros_joint_state_publisher" => state::joint_states(plugin),
         "gazebo_ros_p3d" => state::true_pose(plugin),
@@ -49,6 +51,14 @@ pub(crate) fn replacement(plugin: &OldPlugin<'_>) -> Option<Replacement> {
         );
     }
     Some(replacement)
+}
+
+/// True for a plugin of Gazebo Classic, or an unknown one.
+pub(crate) fn is_classic(plugin: &OldPlugin<'_>) -> bool {
+    match plugin.spec {
+        Some(spec) => spec.family != Family::Gz,
+        None => !is_current(&plugin.plugin.filename),
+    }
 }
 
 /// True for libraries of current Gazebo that are not in the tables.

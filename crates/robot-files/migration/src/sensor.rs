@@ -128,3 +128,12 @@ pub(crate) fn other_camera_info(topic: &str) -> ExpectedDifference {
         reason: camera::CAMERA_INFO_DIFFERENCE.to_owned(),
     }
 }
+
+/// Expected difference of noise, which is keyed by the name of the sensor.
+pub(crate) fn other_noise(topic: &str) -> ExpectedDifference {
+    ExpectedDifference {
+        topic: topic.to_owned(),
+        aspect: TopicAspect::Values,
+        reason: "noise is keyed by the name of the sensor, which is new".to_owned(),
+    }
+}

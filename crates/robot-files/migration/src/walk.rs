@@ -96,7 +96,7 @@ fn count_plugins(element: &Element, current: &mut usize, classic: &mut usize) {
         if child.name == "plugin" && child.attribute("filename").is_some() {
             let old = OldPlugin::read(child, Surroundings::default(), None);
             match old.spec {
-                _ if plugin::replacement(&old).is_none() => *current += 1,
+                _ if !plugin::is_classic(&old) => *current += 1,
                 Some(_) => *classic += 1,
                 None => {}
             }
@@ -139,7 +139,11 @@ impl<'a> Walker<'a> {
             "xacro:if" | "xacro:unless" => {
                 self.children(element, Surroundings { is_conditional: true, ..around });
             }
-            _ => self.children(element, around),
+            name => {
+                let called = name.strip_prefix("xacro:").filter(|name| !BLOCKS.contains(name));
+                let macro_name = called.or(around.macro_name);
+                self.children(element, Surroundings { macro_name, ..around });
+            }
         }
     }
 
@@ -167,7 +171,14 @@ impl<'a> Walker<'a> {
     fn plugin(&mut self, element: &'a Element, around: Surroundings<'a>) {
         let old = OldPlugin::read(element, around, self.ros);
         let name = format!("plugin {}", old.plugin.filename.trim());
-        let Some(mut replacement) = plugin::replacement(&old) else { return };
+        let Some(mut replacement) = plugin::replacement(&old, self.context) else { return };
+        if let Some(called) = around.macro_name {
+            let remark = format!(
+                "the plugin is an argument of the macro `{called}`, so it stays here: {}",
+                replacement.remarks.first().map_or("convert it by hand", String::as_str)
+            );
+            return self.entry(element, name, "", MigrationOutcome::NoCounterpart, vec![remark]);
+        }
         let has_topic = replacement.elements.iter().any(|element| element.name == "topic");
         if around.sensor.is_some() && has_topic {
             if self.has_topic && !around.is_conditional {
@@ -302,6 +313,9 @@ impl<'a> Walker<'a> {
         }
     }
 }
+
+/// Elements of xacro that are not calls of macros.
+const BLOCKS: [&str; 5] = ["macro", "if", "unless", "insert_block", "property"];
 
 /// New element in words: `plugin gz::sim::systems::DiffDrive`, `topic /scan`.
 fn words(element: &Element) -> String {

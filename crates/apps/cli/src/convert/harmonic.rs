@@ -4,6 +4,7 @@ mod compare;
 mod difference;
 mod drive;
 mod host;
+mod launch;
 mod measure;
 mod output;
 mod project;
@@ -36,6 +37,9 @@ pub(super) fn run(options: &ConvertOptions) -> Result<ExitCode, CliError> {
     let Some(folder) = options.out.as_deref() else {
         return Err(CliError::usage("`--to harmonic` needs `--out FOLDER` for the new files"));
     };
+    if launch::is_launch_file(file) {
+        return launch::run(file, arguments, folder, options);
+    }
     let project = Project::read(file, arguments, &options.search)?;
     if project.is_current() {
         terminal::say(&format!(

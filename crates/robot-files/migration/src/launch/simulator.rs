@@ -23,12 +23,17 @@ impl LaunchWriter<'_> {
         if let Some(name) = file.strip_prefix("$(find gazebo_ros)/launch/") {
             return Some(self.simulator(element, name));
         }
+        self.includes(file);
         let class = self.name("launch.actions", "IncludeLaunchDescription");
         let mut arguments = vec![self.launch_file(file)];
         let given: Vec<String> = element
             .named("arg")
             .filter_map(|argument| {
                 let value = argument.value("value").or(argument.value("default"))?;
+                // Files that an include names by an argument are robots and worlds, too.
+                if [".xacro", ".urdf", ".world", ".sdf"].iter().any(|end| value.ends_with(end)) {
+                    self.refer(value);
+                }
                 let value = self.text(value);
                 Some(format!("{}: {value}", quoted(argument.value("name")?)))
             })

@@ -6,7 +6,7 @@ use crate::bridge::{JOINT_STATES, ODOMETRY, TRANSFORMS, TWIST};
 use crate::entry::{MigrationOutcome, TopicAspect};
 use crate::old_plugin::{Flag, OldPlugin};
 use crate::replacement::{Replacement, leaf, system};
-use crate::template;
+use crate::{MigrationContext, template};
 
 /// Odometry of a drive.
 struct OldOdometry {
@@ -108,10 +108,10 @@ const COVARIANCE: &str = "the systems of gz-sim publish odometry with zero covar
                           or bridge `odometry_with_covariance` of OdometryPublisher";
 
 /// `gazebo_ros_diff_drive`, `gazebo_ros_skid_steer_drive`.
-pub(super) fn differential(plugin: &OldPlugin<'_>) -> Replacement {
+pub(super) fn differential(plugin: &OldPlugin<'_>, context: &MigrationContext<'_>) -> Replacement {
     let mut replacement = Replacement::new(MigrationOutcome::Converted);
     let mut drive = system("diff-drive", "DiffDrive");
-    let [left, right] = wheels(plugin, &mut replacement);
+    let [left, right] = wheels(plugin, context, &mut replacement);
     for joint in &left {
         drive.push(leaf("left_joint", joint));
     }
@@ -175,6 +175,14 @@ pub(super) fn differential(plugin: &OldPlugin<'_>) -> Replacement {
         replacement.remark(
             "transforms of the wheels come from robot_state_publisher and the joint states",
         );
+        for aspect in [TopicAspect::Frame, TopicAspect::Rate] {
+            replacement.expects(
+                "/tf",
+                aspect,
+                "DiffDrive publishes no transforms of wheels: they come from robot_state_publisher, which needs \
+                 the joint states of the wheels",
+            );
+        }
     }
     if plugin.flag(&["publishWheelJointState"], false) != Flag::No {
         let mut states = system("joint-state-publisher", "JointStatePublisher");
@@ -194,7 +202,11 @@ pub(super) fn differential(plugin: &OldPlugin<'_>) -> Replacement {
 }
 
 /// Joints of the left and right wheels.
-fn wheels(plugin: &OldPlugin<'_>, replacement: &mut Replacement) -> [Vec<String>; 2] {
+fn wheels(
+    plugin: &OldPlugin<'_>,
+    context: &MigrationContext<'_>,
+    replacement: &mut Replacement,
+) -> [Vec<String>; 2] {
     let one =
         |name: &str, default: &str| plugin.text(&[name]).unwrap_or_else(|| default.to_owned());
     if plugin.library() == "gazebo_ros_skid_steer_drive" {
@@ -219,7 +231,21 @@ fn wheels(plugin: &OldPlugin<'_>, replacement: &mut Replacement) -> [Vec<String>
                     .remark("legacyMode swapped left and right; the joints are swapped here");
             }
             Some(None) => replacement.differs("legacyMode is an expression and was taken as false"),
-            _ => {}
+            Some(Some(false)) => {}
+            None => {
+                if context.is_left_of(&sides[1][0], &sides[0][0]) == Some(true) {
+                    sides.swap(0, 1);
+                    replacement.remark(
+                        "the joints are swapped: without `legacyMode` the old plugin swapped left and right, and \
+                         this robot has its joints the other way round to compensate",
+                    );
+                } else {
+                    replacement.differs(
+                        "the plugin has no `legacyMode`, with which Gazebo swaps left and right; the joints \
+                         are taken as named",
+                    );
+                }
+            }
         }
         return sides;
     }
@@ -319,24 +345,37 @@ pub(super) fn planar(plugin: &OldPlugin<'_>) -> Replacement {
 }
 
 /// Gazebo Classic's own drives, which listen to Gazebo's transport.
-pub(super) fn classic(plugin: &OldPlugin<'_>) -> Replacement {
+pub(super) fn classic(plugin: &OldPlugin<'_>, context: &MigrationContext<'_>) -> Replacement {
     let mut replacement = Replacement::new(MigrationOutcome::Approximated);
     let mut drive = system("diff-drive", "DiffDrive");
-    for name in ["left_joint", "left_front", "left_rear"] {
-        for joint in plugin.texts(name) {
-            drive.push(leaf("left_joint", joint));
-        }
+    let named = |names: [&str; 3]| -> Vec<String> {
+        names.iter().flat_map(|name| plugin.texts(name)).collect()
+    };
+    let left = named(["left_joint", "left_front", "left_rear"]);
+    let right = named(["right_joint", "right_front", "right_rear"]);
+    for joint in &left {
+        drive.push(leaf("left_joint", joint));
     }
-    for name in ["right_joint", "right_front", "right_rear"] {
-        for joint in plugin.texts(name) {
-            drive.push(leaf("right_joint", joint));
+    for joint in &right {
+        drive.push(leaf("right_joint", joint));
+    }
+    let pair = left.first().zip(right.first());
+    let separation_m = pair.and_then(|(left, right)| context.separation_m(left, right));
+    let radius_m = left.first().and_then(|joint| context.joints?.get(joint)?.wheel_radius_m);
+    match (separation_m, radius_m) {
+        (Some(separation_m), Some(radius_m)) => {
+            drive.push(leaf("wheel_separation", template::shown(separation_m)));
+            drive.push(leaf("wheel_radius", template::shown(radius_m)));
+            replacement.remark(
+                "separation and radius of the wheels are those of the model, as the old plugin measured them",
+            );
         }
+        _ => replacement.remark(
+            "the old plugin computed separation and radius of the wheels from the model; write them into \
+             <wheel_separation> and <wheel_radius>, whose defaults are 1 m and 0.2 m",
+        ),
     }
     replacement.elements.push(drive);
-    replacement.remark(
-        "the old plugin computed separation and radius of the wheels from the model; write them into \
-         <wheel_separation> and <wheel_radius>, whose defaults are 1 m and 0.2 m",
-    );
     replacement.remark(
         "commands come on /model/<model>/cmd_vel (gz.msgs.Twist) instead of ~/<model>/vel_cmd",
     );

@@ -129,6 +129,15 @@ fn colour(plugin: &OldPlugin<'_>, topics: &OldTopics) -> Replacement {
         }
         replacement.to_gz(&trigger, &trigger, TRIGGER);
         replacement.differs("triggers are std_msgs/msg/Bool instead of std_msgs/msg/Empty");
+        for topic in [&topics.image, &topics.info] {
+            for aspect in [TopicAspect::Presence, TopicAspect::Rate] {
+                replacement.expects(
+                    topic,
+                    aspect,
+                    "the camera publishes on a trigger only, and none is sent",
+                );
+            }
+        }
         replacement.expects(&trigger, TopicAspect::Type, "gz reads triggers as gz.msgs.Boolean");
     }
     if plugin.library() == "gazebo_ros_prosilica" {
@@ -170,28 +179,11 @@ fn depth(plugin: &OldPlugin<'_>, topics: &OldTopics) -> Replacement {
     replacement.remark(reason);
     replacement.expects(&topics.points, TopicAspect::Frame, reason);
     replacement.expects(&topics.points, TopicAspect::Fields, reason);
-    let limits = ["min_depth", "max_depth", "pointCloudCutoff", "pointCloudCutoffMax"];
-    if plugin.text(&limits).is_some() {
-        let [near, far] = [
-            plugin.text(&["min_depth", "pointCloudCutoff"]),
-            plugin.text(&["max_depth", "pointCloudCutoffMax"]),
-        ];
-        let mut clip = periplus_xml::Element::new("clip");
-        if let Some(near) = near {
-            clip.push(leaf("near", near));
-        }
-        if let Some(far) = far {
-            clip.push(leaf("far", far));
-        }
-        let mut depths = periplus_xml::Element::new("depth_camera");
-        depths.push(clip);
-        replacement.sensor.push(SensorChange::Setting { group: "camera", element: depths });
-    } else {
-        let reason =
-            "the old plugin had a minimum depth of 0.4 m by default, the new sensor uses <clip>";
-        replacement.remark(reason);
-        replacement.expects(&topics.depth, TopicAspect::Values, reason);
-        replacement.expects(&topics.points, TopicAspect::Values, reason);
+    let reason = "the old plugin cut depths off (by default below 0.4 m); <clip> of <depth_camera> does so, too, but would cut \
+                  the colours as well, so it is not written";
+    replacement.remark(reason);
+    for topic in [&topics.depth, &topics.points] {
+        replacement.expects(topic, TopicAspect::Values, reason);
     }
     if plugin.flag(&["useDepth16UC1Format"], false) != Flag::No {
         replacement.differs("depths are metres in 32-bit floats instead of millimetres in 16 bits");

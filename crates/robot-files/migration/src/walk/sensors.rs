@@ -172,6 +172,9 @@ impl<'a> Walker<'a> {
                     crate::bridge::CAMERA_INFO,
                 ));
                 self.expected.push(sensor::other_camera_info(&info));
+                if camera.child("noise").is_some() {
+                    self.expected.push(sensor::other_noise(&image));
+                }
             }
             sensors.push(single);
         }

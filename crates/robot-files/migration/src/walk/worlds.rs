@@ -2,14 +2,15 @@
 
 use std::collections::BTreeMap;
 
+use periplus_geometry::{Pose, Rpy};
 use periplus_xml::Element;
 
 use super::{Walker, words};
 use crate::entry::MigrationOutcome;
 use crate::old_plugin::{OldPlugin, Surroundings};
-use crate::population;
 use crate::replacement::leaf;
 use crate::world::{builtin_element, builtin_include, missing_systems};
+use crate::{population, template};
 
 /// Elements of a world without effect in gz-sim, and the reason.
 const NO_EFFECT: [(&str, &str); 3] = [
@@ -176,7 +177,7 @@ impl<'a> Walker<'a> {
                     poses.insert((saved.name.as_str(), name), pose.text().into_owned());
                 }
             }
-            let mut count = 0;
+            let (mut count, mut moved) = (0, 0);
             for entity in world
                 .elements()
                 .filter(|it| matches!(it.name.as_str(), "model" | "light" | "include"))
@@ -196,8 +197,13 @@ impl<'a> Walker<'a> {
                     Some(present) => self.edits.replace(present, &[leaf("pose", pose)]),
                     None => self.edits.prepend(entity, &[leaf("pose", pose)]),
                 }
+                let saved =
+                    state.elements().find(|saved| saved.value("name") == Some(name.as_str()));
+                if let Some(saved) = saved.filter(|_| entity.name == "model") {
+                    moved += self.saved_links(saved, entity);
+                }
             }
-            remarks.push(format!("{count} poses; those of single links are not carried over"));
+            remarks.push(format!("{count} poses of models and {moved} of links"));
             if let Some(insertions) = state.child("insertions") {
                 let inserted: Vec<Element> = insertions.elements().cloned().collect();
                 if !inserted.is_empty() {
@@ -212,12 +218,65 @@ impl<'a> Walker<'a> {
         self.edits.remove(state);
         self.entry(state, "<state>", "poses of the models", MigrationOutcome::Converted, remarks);
     }
+
+    /// Links that were moved in their model before it was saved; returns how many.
+    fn saved_links(&mut self, saved: &'a Element, model: &'a Element) -> usize {
+        let Some(world_from_model) = pose_of(saved) else { return 0 };
+        let mut count = 0;
+        for link in model.named("link") {
+            let name = link.value("name");
+            let Some(state) = saved.named("link").find(|state| state.value("name") == name) else {
+                continue;
+            };
+            let (Some(world_from_link), Some(written)) = (pose_of(state), pose_of(link)) else {
+                continue;
+            };
+            if state.child("pose").is_none() {
+                continue;
+            }
+            let model_from_link = world_from_model.inverse() * world_from_link;
+            let (metres, radians) = written.distance_to(model_from_link);
+            if metres < SAVED_POSE_TOLERANCE && radians < SAVED_POSE_TOLERANCE {
+                continue;
+            }
+            count += 1;
+            let pose = leaf("pose", pose_text(model_from_link));
+            match link.child("pose") {
+                Some(present) => self.edits.replace(present, &[pose]),
+                None => self.edits.prepend(link, &[pose]),
+            }
+        }
+        count
+    }
+}
+
+/// Tolerance within which a saved pose of a link is that of the file \[m, rad\].
+const SAVED_POSE_TOLERANCE: f64 = 1e-5;
+
+/// Pose of an element in its parent, as six numbers; `None` for other forms.
+fn pose_of(element: &Element) -> Option<Pose> {
+    let Some(pose) = element.child("pose") else { return Some(Pose::IDENTITY) };
+    if pose.value("relative_to").is_some_and(|frame| !frame.is_empty()) {
+        return None;
+    }
+    let text = pose.text();
+    let numbers: Vec<f64> = text.split_whitespace().map_while(|word| word.parse().ok()).collect();
+    let [x, y, z, roll, pitch, yaw] = *numbers.first_chunk::<6>()?;
+    Some(Pose::from_xyz_rpy([x, y, z], Rpy { roll, pitch, yaw }))
+}
+
+/// Six numbers of a pose.
+fn pose_text(pose: Pose) -> String {
+    let (position, rpy) = (pose.translation, pose.rpy());
+    [position.x, position.y, position.z, rpy.roll, rpy.pitch, rpy.yaw]
+        .map(template::shown)
+        .join(" ")
 }
 
 /// True for a plugin of current Gazebo.
 fn is_current(plugin: &Element) -> bool {
     let old = OldPlugin::read(plugin, Surroundings::default(), None);
-    crate::plugin::replacement(&old).is_none()
+    !crate::plugin::is_classic(&old)
 }
 
 /// Name that an include gives its model by default: that of the folder, in nearly all models.

@@ -10,7 +10,7 @@ use super::drive::DRIVE_WORDS;
 use super::host::Overlay;
 use super::measure::measure;
 use super::project::{Project, folders};
-use super::record::{RunLog, RunSetup, TopicLog, record};
+use super::record::{RunKind, RunLog, RunSetup, TopicLog, record};
 use crate::options::SearchOptions;
 
 /// Tolerance of rates, as a fraction.
@@ -90,19 +90,25 @@ impl Comparison {
             return Self::not_run("the file has no link to simulate");
         }
         let folders = folders(search);
-        let setup = |is_controlled: bool| RunSetup {
+        let setup = |is_driven: bool, kind: RunKind| RunSetup {
             file: &project.loaded.path,
             arguments: &project.arguments,
             folders: &folders,
             is_robot: project.is_robot(),
-            is_controlled,
+            is_driven,
+            kind,
         };
-        let old = record(&setup(false), Overlay::default());
-        let new = record(&setup(false), project.overlay());
+        let old = record(&setup(true, RunKind::Usual), Overlay::default());
+        // A drive that Periplus does not simulate in the old file does not move in the new one.
+        let is_driven = !old.command_topics.is_empty();
+        let new = record(&setup(is_driven, RunKind::Usual), project.overlay());
         let mut run = ComparisonRun::new(project, &old, &new);
-        if run.verdict == Verdict::Unexplained {
-            let old = record(&setup(true), Overlay::default());
-            let new = record(&setup(true), project.overlay());
+        for kind in [RunKind::Controlled, RunKind::Kinematic] {
+            if run.verdict != Verdict::Unexplained {
+                break;
+            }
+            let old = record(&setup(is_driven, kind), Overlay::default());
+            let new = record(&setup(is_driven, kind), project.overlay());
             run.explain(&ComparisonRun::new(project, &old, &new), &old, &new);
         }
         Self::Run(Box::new(run))
@@ -166,15 +172,30 @@ impl ComparisonRun {
                 shown(&new.command_topics)
             );
             let mut difference = Difference::new(TopicAspect::Presence, text);
+            if old.command_topics.is_empty() {
+                difference.reason = Some(
+                    "Periplus does not simulate the old drive, which listens to Gazebo's transport; nothing was driven"
+                        .to_owned(),
+                );
+            }
             let is_removed = |entry: &&periplus_migration::MigrationEntry| {
                 entry.outcome != periplus_migration::MigrationOutcome::Converted
                     && (entry.old.contains("rive") || entry.old.contains("control"))
             };
-            difference.reason = project
-                .entries
-                .iter()
-                .find(is_removed)
-                .map(|entry| format!("{}: {}", entry.old, entry.remarks.join("; ")));
+            if difference.reason.is_none() {
+                difference.reason = project
+                    .entries
+                    .iter()
+                    .find(is_removed)
+                    .map(|entry| format!("{}: {}", entry.old, entry.remarks.join("; ")));
+                // Without its drive the new robot stands, and publishes nothing of it.
+                for topic in &mut run.topics {
+                    for other in topic.differences.iter_mut().filter(|other| other.reason.is_none())
+                    {
+                        other.reason.clone_from(&difference.reason);
+                    }
+                }
+            }
             run.differences.push(difference);
         }
         run.judge();
@@ -193,10 +214,10 @@ impl ComparisonRun {
     /// Explains values that agree once the known differences of the simulators are removed.
     fn explain(&mut self, controlled: &Self, old: &RunLog, new: &RunLog) {
         let reasons: BTreeSet<&str> = old.equalized.iter().chain(&new.equalized).copied().collect();
-        self.equalized = reasons.into_iter().collect();
-        if self.equalized.is_empty() {
+        if reasons.is_empty() {
             return;
         }
+        self.equalized = reasons.into_iter().collect();
         for topic in &mut self.topics {
             let Some(other) = controlled.topics.iter().find(|other| other.topic == topic.topic)
             else {

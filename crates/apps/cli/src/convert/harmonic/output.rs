@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use periplus_migration::{bridge_yaml, clock_bridge};
+use periplus_migration::{BridgeEntry, bridge_yaml, clock_bridge};
 
 use super::compare::Comparison;
 use super::project::Project;
@@ -14,10 +14,19 @@ use crate::paths;
 pub(super) const REPORT: &str = "MIGRATION.md";
 
 /// Name of the report for programs.
-const JSON_REPORT: &str = "migration.json";
+pub(super) const JSON_REPORT: &str = "migration.json";
 
 /// Name of the topics for `ros_gz_bridge`.
-const BRIDGE: &str = "ros_gz_bridge.yaml";
+pub(super) const BRIDGE: &str = "ros_gz_bridge.yaml";
+
+/// Writes a file of the folder.
+pub(super) fn write_file(folder: &Path, name: &str, text: &str) -> Result<(), CliError> {
+    let path = folder.join(name);
+    if let Some(parent) = path.parent() {
+        paths::make_folder(parent).map_err(CliError::failed)?;
+    }
+    paths::write(&path, text.as_bytes()).map_err(CliError::failed)
+}
 
 /// Writes all files; returns their names in the folder.
 pub(super) fn write(
@@ -25,30 +34,32 @@ pub(super) fn write(
     comparison: &Comparison,
     folder: &Path,
 ) -> Result<Vec<String>, CliError> {
-    let mut written = Vec::new();
-    let mut add = |name: String, text: &str| -> Result<(), CliError> {
-        let path = folder.join(&name);
-        if let Some(parent) = path.parent() {
-            paths::make_folder(parent).map_err(CliError::failed)?;
-        }
-        paths::write(&path, text.as_bytes()).map_err(CliError::failed)?;
-        written.push(name);
-        Ok(())
-    };
-    for file in &project.files {
-        add(file.output.display().to_string(), &file.text)?;
-    }
+    let mut written = converted(project, folder)?;
     if !project.bridge.is_empty() {
-        let mut entries = vec![clock_bridge()];
-        entries.extend(project.bridge.iter().cloned());
-        add(BRIDGE.to_owned(), &bridge_yaml(&entries))?;
+        write_file(folder, BRIDGE, &bridge(&project.bridge))?;
+        written.push(BRIDGE.to_owned());
     }
-    let mut names = written.clone();
-    names.extend([REPORT.to_owned(), JSON_REPORT.to_owned()]);
-    let add = |name: &str, text: String| {
-        paths::write(&folder.join(name), text.as_bytes()).map_err(CliError::failed)
-    };
-    add(REPORT, report::markdown(project, &names, comparison))?;
-    add(JSON_REPORT, format!("{:#}\n", report::json(project, &names, comparison)))?;
-    Ok(names)
+    written.extend([REPORT.to_owned(), JSON_REPORT.to_owned()]);
+    write_file(folder, REPORT, &report::markdown(project, &written, comparison))?;
+    let json = format!("{:#}\n", report::json(project, &written, comparison));
+    write_file(folder, JSON_REPORT, &json)?;
+    Ok(written)
+}
+
+/// Writes the converted files alone; returns their names.
+pub(super) fn converted(project: &Project, folder: &Path) -> Result<Vec<String>, CliError> {
+    let mut written = Vec::new();
+    for file in &project.files {
+        let name = file.output.display().to_string();
+        write_file(folder, &name, &file.text)?;
+        written.push(name);
+    }
+    Ok(written)
+}
+
+/// Text of the topics for `ros_gz_bridge`, with the clock.
+pub(super) fn bridge(topics: &[BridgeEntry]) -> String {
+    let mut entries = vec![clock_bridge()];
+    entries.extend(topics.iter().cloned());
+    bridge_yaml(&entries)
 }

@@ -1,16 +1,18 @@
 //! Files of a robot or world, converted.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use periplus_diagnostics::Diagnostics;
 use periplus_loader::{FileFormat, LoadContext, LoadedFile, load};
 use periplus_migration::{
-    BridgeEntry, ExpectedDifference, Migrated, MigrationContext, MigrationEntry, MigrationOutcome,
-    migrate,
+    BridgeEntry, ExpectedDifference, JointGeometry, Migrated, MigrationContext, MigrationEntry,
+    MigrationOutcome, migrate,
 };
 use periplus_os::Machine;
 use periplus_plugin_specs::{Family, library_id, sites};
 use periplus_resources::{Host as _, Resolver};
+use periplus_scene::Shape;
 use periplus_xml::{decode, write_document};
 
 use super::host::Overlay;
@@ -90,6 +92,7 @@ impl Project {
     fn convert(&mut self, resolver: &Resolver<'_>) -> Result<(), CliError> {
         let host = Machine;
         let (ros, has_ros_control) = self.generation();
+        let joints = self.joints();
         let main = canonical(&self.loaded.path);
         let mut paths = vec![main.clone()];
         for path in &self.loaded.files {
@@ -106,6 +109,7 @@ impl Project {
             let context = MigrationContext {
                 ros,
                 has_ros_control,
+                joints: Some(&joints),
                 ..MigrationContext::new(&path, &host, resolver)
             };
             let Some(migrated) = migrate(&text, &context) else {
@@ -121,15 +125,24 @@ impl Project {
                 self.expected.extend(migrated.expected);
             }
             if migrated.text != *text {
-                let output = output_path(&path, &main);
-                self.files.push(ConvertedFile { path, output, text: migrated.text });
+                self.files.push(ConvertedFile {
+                    path,
+                    output: PathBuf::new(),
+                    text: migrated.text,
+                });
             }
+        }
+        let changed: Vec<PathBuf> = self.files.iter().map(|file| file.path.clone()).collect();
+        let base = common_folder(&changed);
+        for file in &mut self.files {
+            file.output = output_path(&file.path, &base);
         }
         if is_expanded && let Some(document) = &self.loaded.document {
             // Macros have their values in the expanded robot only.
             let context = MigrationContext {
                 ros,
                 has_ros_control,
+                joints: Some(&joints),
                 ..MigrationContext::new(&main, &host, resolver)
             };
             if let Some(migrated) = migrate(&write_document(document), &context) {
@@ -188,6 +201,32 @@ impl Project {
         (ros, controls)
     }
 
+    /// Joints of all models, by name.
+    fn joints(&self) -> BTreeMap<String, JointGeometry> {
+        let mut joints = BTreeMap::new();
+        let Some(scene) = &self.loaded.scene else { return joints };
+        let of_worlds = scene.worlds.iter().flat_map(|world| &world.models);
+        for model in of_worlds.chain(&scene.models) {
+            for joint in &model.joints {
+                let Some(link) = model.links.iter().find(|link| link.name == joint.child) else {
+                    continue;
+                };
+                let model_from_joint = link.model_from_link * joint.child_from_joint;
+                let wheel_radius_m =
+                    link.collisions.iter().find_map(|collision| match collision.shape {
+                        Shape::Cylinder { radius_m, .. } | Shape::Sphere { radius_m } => {
+                            Some(radius_m)
+                        }
+                        _ => None,
+                    });
+                let position_m = model_from_joint.translation.to_array();
+                let geometry = JointGeometry { position_m, wheel_radius_m };
+                joints.entry(joint.name.clone()).or_insert(geometry);
+            }
+        }
+        joints
+    }
+
     /// True if no file changes.
     pub(super) fn is_current(&self) -> bool {
         self.files.is_empty()
@@ -212,13 +251,25 @@ pub(super) fn folders(search: &SearchOptions) -> Vec<PathBuf> {
     search.resource_path.iter().map(|folder| working_folder.join(folder)).collect()
 }
 
-fn canonical(path: &Path) -> PathBuf {
+pub(super) fn canonical(path: &Path) -> PathBuf {
     Machine.canonical(path).unwrap_or_else(|| path.to_owned())
 }
 
-/// Path in the output folder: below the name of the package or model that contains the file, else below the folder of the
-/// main file.
-fn output_path(path: &Path, main: &Path) -> PathBuf {
+/// Innermost folder that contains all files.
+fn common_folder(paths: &[PathBuf]) -> PathBuf {
+    let mut folders = paths.iter().filter_map(|path| path.parent());
+    let Some(first) = folders.next() else { return PathBuf::new() };
+    folders.fold(first.to_owned(), |common, folder| {
+        common
+            .ancestors()
+            .find(|above| folder.starts_with(above))
+            .map(Path::to_owned)
+            .unwrap_or_default()
+    })
+}
+
+/// Path in the output folder: below the name of the package or model that contains the file, else below the common folder.
+pub(super) fn output_path(path: &Path, base: &Path) -> PathBuf {
     let host = Machine;
     let root = path.ancestors().skip(1).find(|up| {
         let has = |name: &str| host.kind(&up.join(name)).is_some();
@@ -231,8 +282,7 @@ fn output_path(path: &Path, main: &Path) -> PathBuf {
         let above = root.parent().unwrap_or(root);
         return path.strip_prefix(above).unwrap_or(path).to_owned();
     }
-    let folder = main.parent().unwrap_or(main);
-    match path.strip_prefix(folder) {
+    match path.strip_prefix(base) {
         Ok(inside) => inside.to_owned(),
         Err(_) => PathBuf::from(path.file_name().unwrap_or_default()),
     }

@@ -9,7 +9,9 @@ use periplus_graph::{NodeSettings, Qos, RawMailbox, Sample, Sink, TopicInfo};
 use periplus_loader::LoadContext;
 use periplus_resources::Resolver;
 use periplus_scene::Model;
-use periplus_sim::{AssetFiles, Composition, Options, RobotPlacement, Simulation, compose};
+use periplus_sim::{
+    AssetFiles, Composition, Options, PhysicsMode, RobotPlacement, Simulation, compose,
+};
 use periplus_xml::Element;
 
 use super::drive::{COMMAND_PERIOD_NS, CommandPublishers, DURATION_S};
@@ -51,6 +53,17 @@ pub(super) struct RunLog {
     pub(super) equalized: Vec<&'static str>,
 }
 
+/// Kind of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum RunKind {
+    /// The description as it is.
+    Usual,
+    /// Without the known differences of the two simulators.
+    Controlled,
+    /// As [`RunKind::Controlled`], with motion exactly as commanded instead of contacts.
+    Kinematic,
+}
+
 /// What to simulate.
 pub(super) struct RunSetup<'a> {
     pub(super) file: &'a Path,
@@ -58,8 +71,10 @@ pub(super) struct RunSetup<'a> {
     pub(super) folders: &'a [PathBuf],
     /// True if the file is a robot, which is put into a room.
     pub(super) is_robot: bool,
-    /// True to remove known differences of the two simulators.
-    pub(super) is_controlled: bool,
+    /// True to send commands to the drives.
+    pub(super) is_driven: bool,
+    /// What is simulated.
+    pub(super) kind: RunKind,
 }
 
 type Topics = Arc<Mutex<BTreeMap<String, TopicLog>>>;
@@ -115,20 +130,27 @@ pub(super) fn record(setup: &RunSetup<'_>, overlay: Overlay) -> RunLog {
         compose(setup.file, &[], &context)
     };
     let mut log = RunLog::default();
-    if setup.is_controlled {
+    if setup.kind != RunKind::Usual {
         for member in &mut composition.members {
             equalize(&mut member.model, &mut log.equalized);
         }
         log.equalized.sort_unstable();
         log.equalized.dedup();
     }
-    drive(&mut composition, &mut log);
+    if setup.kind == RunKind::Kinematic {
+        log.equalized.push(CONTACTS);
+    }
+    drive(&mut composition, setup, &mut log);
     log
 }
 
-fn drive(composition: &mut Composition, log: &mut RunLog) {
+fn drive(composition: &mut Composition, setup: &RunSetup<'_>, log: &mut RunLog) {
     let files = Arc::new(AssetFiles::default());
-    let options = Options { threads: processors(), ..Options::default() };
+    let mode = match setup.kind {
+        RunKind::Kinematic => PhysicsMode::Kinematic,
+        RunKind::Usual | RunKind::Controlled => PhysicsMode::Rigid,
+    };
+    let options = Options { threads: processors(), mode, ..Options::default() };
     let mut simulation = Simulation::new(composition, files, options);
     let motion = simulation.motion();
     for (model, name) in motion.models() {
@@ -161,7 +183,9 @@ fn drive(composition: &mut Composition, log: &mut RunLog) {
     let mut command_ns = 0;
     while simulation.time_ns() < end_ns {
         if simulation.time_ns() >= command_ns {
-            publishers.publish(command_ns);
+            if setup.is_driven {
+                publishers.publish(command_ns);
+            }
             command_ns += COMMAND_PERIOD_NS;
         }
         if let Err(diverged) = simulation.step_until(command_ns.min(end_ns)) {
@@ -206,6 +230,7 @@ const UNLIMITED_TORQUE: &str = "1e6";
 const ACCELERATION: &str =
     "limits of acceleration (of wheels in the old drive, of the robot in DiffDrive)";
 const TORQUE: &str = "the maximum torque of wheels (DiffDrive has none)";
+const CONTACTS: &str = "contacts of wheels with the floor (motion exactly as commanded)";
 const GEOMETRY: &str =
     "the geometry that lidars measure (collisions in the old file, visuals in the new one)";
 

@@ -20,10 +20,15 @@ const OUTCOMES: [MigrationOutcome; 5] = [
 
 /// Number of elements by outcome, one line each.
 pub(super) fn counts(project: &Project) -> Vec<String> {
+    counts_of(&project.entries)
+}
+
+/// Number of elements by outcome, one line each.
+pub(super) fn counts_of(entries: &[MigrationEntry]) -> Vec<String> {
     OUTCOMES
         .into_iter()
         .filter_map(|outcome| {
-            let count = project.entries.iter().filter(|entry| entry.outcome == outcome).count();
+            let count = entries.iter().filter(|entry| entry.outcome == outcome).count();
             (count > 0).then(|| format!("{count} elements: {}", outcome.words()))
         })
         .collect()
@@ -65,34 +70,7 @@ pub(super) fn markdown(project: &Project, files: &[String], comparison: &Compari
         "\nA file keeps its path below the name of its package or model: copy the folder of the package over \
          the package. Everything outside of the elements below is unchanged.\n"
     );
-    let is_missing = |entry: &&MigrationEntry| entry.outcome == MigrationOutcome::NoCounterpart;
-    let missing: Vec<&MigrationEntry> = project.entries.iter().filter(is_missing).collect();
-    if !missing.is_empty() {
-        text.push_str("## Elements without a counterpart\n\n");
-        for entry in grouped(&missing) {
-            let _ = writeln!(text, "- {}: {}. {}", entry.place, entry.old, entry.remarks);
-        }
-        text.push('\n');
-    }
-    let others: Vec<&MigrationEntry> =
-        project.entries.iter().filter(|entry| !is_missing(entry)).collect();
-    if !others.is_empty() {
-        text.push_str(
-            "## Elements\n\n| file:line | old | new | result | remarks |\n|---|---|---|---|---|\n",
-        );
-        for entry in grouped(&others) {
-            let _ = writeln!(
-                text,
-                "| {} | {} | {} | {} | {} |",
-                entry.place,
-                cell(&entry.old),
-                cell(&entry.new),
-                entry.outcome.words(),
-                cell(&entry.remarks)
-            );
-        }
-        text.push('\n');
-    }
+    elements(&project.entries, &mut text);
     if !project.bridge.is_empty() {
         text.push_str(
             "## Bridge\n\n`ros2 run ros_gz_bridge parameter_bridge --ros-args -p config_file:=ros_gz_bridge.yaml`\n\n\
@@ -112,13 +90,49 @@ pub(super) fn markdown(project: &Project, files: &[String], comparison: &Compari
         text.push('\n');
     }
     text.push_str("## Comparison run\n\n");
+    self::comparison(comparison, &mut text);
+    text
+}
+
+/// Results of a comparison run.
+pub(super) fn comparison(comparison: &Comparison, text: &mut String) {
     match comparison {
         Comparison::NotRun { reason } => {
             let _ = writeln!(text, "Not run: {reason}.");
         }
-        Comparison::Run(run) => comparison_text(run, &mut text),
+        Comparison::Run(run) => comparison_text(run, text),
     }
-    text
+}
+
+/// Tables of the old elements.
+pub(super) fn elements(entries: &[MigrationEntry], text: &mut String) {
+    let is_missing = |entry: &&MigrationEntry| entry.outcome == MigrationOutcome::NoCounterpart;
+    let missing: Vec<&MigrationEntry> = entries.iter().filter(is_missing).collect();
+    if !missing.is_empty() {
+        text.push_str("## Elements without a counterpart\n\n");
+        for entry in grouped(&missing) {
+            let _ = writeln!(text, "- {}: {}. {}", entry.place, entry.old, entry.remarks);
+        }
+        text.push('\n');
+    }
+    let others: Vec<&MigrationEntry> = entries.iter().filter(|entry| !is_missing(entry)).collect();
+    if !others.is_empty() {
+        text.push_str(
+            "## Elements\n\n| file:line | old | new | result | remarks |\n|---|---|---|---|---|\n",
+        );
+        for entry in grouped(&others) {
+            let _ = writeln!(
+                text,
+                "| {} | {} | {} | {} | {} |",
+                entry.place,
+                cell(&entry.old),
+                cell(&entry.new),
+                entry.outcome.words(),
+                cell(&entry.remarks)
+            );
+        }
+        text.push('\n');
+    }
 }
 
 fn comparison_text(run: &ComparisonRun, text: &mut String) {
