@@ -68,6 +68,9 @@ pub struct MigrationContext<'a> {
     pub has_ros_control: bool,
     /// Joints of the robot, where they are known: some plugins measured them.
     pub joints: Option<&'a BTreeMap<String, JointGeometry>>,
+    /// Values of the attributes `filename` of plugins and `type` of sensors in the expanded robot, by the position of the
+    /// element in this file \[bytes\]; each value once.
+    pub expanded: Option<&'a BTreeMap<u32, Vec<String>>>,
 }
 
 /// Joint at the zero position of a model, and the wheel on it.
@@ -86,7 +89,15 @@ impl<'a> MigrationContext<'a> {
     /// Context of a single file.
     #[must_use]
     pub fn new(path: &'a Path, host: &'a dyn Host, resolver: &'a Resolver<'a>) -> Self {
-        Self { path, host, resolver, ros: None, has_ros_control: false, joints: None }
+        Self {
+            path,
+            host,
+            resolver,
+            ros: None,
+            has_ros_control: false,
+            joints: None,
+            expanded: None,
+        }
     }
 
     /// True if a joint is to the left of another; `None` if it is unknown.

@@ -49,7 +49,7 @@ pub(crate) enum Flag {
     Yes,
     No,
     /// An expression of xacro.
-    Unknown,
+    Unknown(String),
 }
 
 impl<'a> OldPlugin<'a> {
@@ -59,12 +59,23 @@ impl<'a> OldPlugin<'a> {
         surroundings: Surroundings<'a>,
         ros: Option<Family>,
     ) -> Self {
+        let filename = element.value("filename").unwrap_or_default();
+        Self::read_as(element, filename, surroundings, ros)
+    }
+
+    /// Reads a `<plugin>` whose file name is an expression with this value.
+    pub(crate) fn read_as(
+        element: &'a Element,
+        filename: &str,
+        surroundings: Surroundings<'a>,
+        ros: Option<Family>,
+    ) -> Self {
         let mut content = Vec::new();
         let mut has_conditions = false;
         collect(element, &mut content, &mut has_conditions);
         let mut plugin = Plugin {
             name: element.value("name").unwrap_or_default().to_owned(),
-            filename: element.value("filename").unwrap_or_default().to_owned(),
+            filename: filename.to_owned(),
             content,
             origin: element.origin,
         };
@@ -122,7 +133,7 @@ impl<'a> OldPlugin<'a> {
         match self.text(names).map(|text| template::flag(&text)) {
             Some(Some(true)) => Flag::Yes,
             Some(Some(false)) => Flag::No,
-            Some(None) => Flag::Unknown,
+            Some(None) => Flag::Unknown(self.text(names).unwrap_or_default()),
             None if default => Flag::Yes,
             None => Flag::No,
         }

@@ -147,6 +147,16 @@ impl<'a> Walker<'a> {
         }
     }
 
+    /// Value of an attribute that is an expression, if it is the same in all places where the element is used.
+    fn resolved(&self, element: &Element, written: &str) -> String {
+        let start = element.origin.0.map(|span| span.start);
+        let values = start.and_then(|start| self.context.expanded?.get(&start));
+        match values.map(Vec::as_slice) {
+            Some([only]) if template::is_template(written) => only.clone(),
+            _ => written.to_owned(),
+        }
+    }
+
     /// Adds an entry of the report.
     fn entry(
         &mut self,
@@ -169,7 +179,9 @@ impl<'a> Walker<'a> {
     }
 
     fn plugin(&mut self, element: &'a Element, around: Surroundings<'a>) {
-        let old = OldPlugin::read(element, around, self.ros);
+        let written = element.value("filename").unwrap_or_default();
+        let filename = self.resolved(element, written);
+        let old = OldPlugin::read_as(element, &filename, around, self.ros);
         let name = format!("plugin {}", old.plugin.filename.trim());
         let Some(mut replacement) = plugin::replacement(&old, self.context) else { return };
         if let Some(called) = around.macro_name {

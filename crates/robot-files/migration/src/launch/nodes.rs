@@ -124,7 +124,6 @@ impl LaunchWriter<'_> {
             self.entry(element, old, "", MigrationOutcome::NoCounterpart, &[remark]);
             return None;
         }
-        self.is_simulating = true;
         let mut remarks: Vec<&str> = Vec::new();
         let old_words = words(element.value("args").unwrap_or_default());
         let mut new_words: Vec<String> = Vec::new();
@@ -170,6 +169,12 @@ impl LaunchWriter<'_> {
             MigrationOutcome::Approximated
         };
         self.entry(element, old, "node ros_gz_sim/create", outcome, &remarks);
+        if !self.is_simulating {
+            let old = "topics of the spawned robot".to_owned();
+            let remark = "the bridge is part of the launch file that starts Gazebo; start parameter_bridge of ros_gz_bridge \
+                          with config_file:=ros_gz_bridge.yaml if there is none";
+            self.entry(element, old, "", MigrationOutcome::Approximated, &[remark]);
+        }
         let create = self.with_arguments(arguments, &new_words);
         // `create` receives the description as a topic.
         if let Some(description) = scope.description.clone().filter(|_| !scope.is_published)

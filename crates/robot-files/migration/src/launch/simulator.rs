@@ -31,7 +31,8 @@ impl LaunchWriter<'_> {
             .filter_map(|argument| {
                 let value = argument.value("value").or(argument.value("default"))?;
                 // Files that an include names by an argument are robots and worlds, too.
-                if [".xacro", ".urdf", ".world", ".sdf"].iter().any(|end| value.ends_with(end)) {
+                let known = self.with_defaults(value);
+                if [".xacro", ".urdf", ".world", ".sdf"].iter().any(|end| known.ends_with(end)) {
                     self.refer(value);
                 }
                 let value = self.text(value);

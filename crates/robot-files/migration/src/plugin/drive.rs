@@ -59,18 +59,34 @@ impl OldOdometry {
         self.is_published != Flag::No || self.has_transform != Flag::No
     }
 
-    /// Topics of a drive system's own odometry.
-    fn of_wheels(&self, drive: &mut Element, replacement: &mut Replacement) {
-        drive.push(leaf("odom_publish_frequency", &self.rate_hz));
-        if self.is_published != Flag::No {
-            drive.push(leaf("odom_topic", &self.topic));
+    /// Adds the topics of a publisher. Where an expression decides, so does it in the new file.
+    fn add_topics(&self, publisher: &mut Element, replacement: &mut Replacement) {
+        let mut add = |flag: &Flag, name: &str, topic: &str| match flag {
+            Flag::No => false,
+            Flag::Yes => {
+                publisher.push(leaf(name, topic));
+                true
+            }
+            Flag::Unknown(expression) => {
+                let condition =
+                    Element::new("xacro:if").with_attribute("value", expression.as_str());
+                publisher.push(condition.with_child(leaf(name, topic)));
+                true
+            }
+        };
+        if add(&self.is_published, "odom_topic", &self.topic) {
             replacement.to_ros(&self.topic, &self.topic, ODOMETRY);
             replacement.expects(&self.topic, TopicAspect::Fields, COVARIANCE);
         }
-        if self.has_transform != Flag::No {
-            drive.push(leaf("tf_topic", "/tf"));
+        if add(&self.has_transform, "tf_topic", "/tf") {
             replacement.to_ros("/tf", "/tf", TRANSFORMS);
         }
+    }
+
+    /// Topics of a drive system's own odometry.
+    fn of_wheels(&self, drive: &mut Element, replacement: &mut Replacement) {
+        drive.push(leaf("odom_publish_frequency", &self.rate_hz));
+        self.add_topics(drive, replacement);
         drive.push(leaf("frame_id", &self.frame));
         drive.push(leaf("child_frame_id", &self.base));
     }
@@ -82,25 +98,8 @@ impl OldOdometry {
         truth.push(leaf("odom_frame", &self.frame));
         truth.push(leaf("robot_base_frame", &self.base));
         truth.push(leaf("odom_publish_frequency", &self.rate_hz));
-        if self.is_published != Flag::No {
-            truth.push(leaf("odom_topic", &self.topic));
-            replacement.to_ros(&self.topic, &self.topic, ODOMETRY);
-            replacement.expects(&self.topic, TopicAspect::Fields, COVARIANCE);
-        }
-        if self.has_transform != Flag::No {
-            truth.push(leaf("tf_topic", "/tf"));
-            replacement.to_ros("/tf", "/tf", TRANSFORMS);
-        }
+        self.add_topics(&mut truth, replacement);
         replacement.elements.push(truth);
-    }
-
-    fn note_unknown_flags(&self, replacement: &mut Replacement) {
-        if self.is_published == Flag::Unknown || self.has_transform == Flag::Unknown {
-            replacement.differs(
-                "whether odometry and its transform are published depends on an expression; the new \
-                 plugin always publishes them: leave them out of the bridge to switch them off",
-            );
-        }
     }
 }
 
@@ -151,7 +150,6 @@ pub(super) fn differential(plugin: &OldPlugin<'_>, context: &MigrationContext<'_
         _ => true,
     };
     let odometry = OldOdometry::read(plugin, rate_hz, is_truth);
-    odometry.note_unknown_flags(&mut replacement);
     accelerate(plugin, &separation, &mut drive, &mut replacement);
     if !odometry.is_truth {
         odometry.of_wheels(&mut drive, &mut replacement);
@@ -320,7 +318,6 @@ pub(super) fn planar(plugin: &OldPlugin<'_>) -> Replacement {
     let rate = if plugin.is_ros1() { "odometryRate" } else { "publish_rate" };
     let rate_hz = plugin.text(&[rate]).unwrap_or_else(|| "20".to_owned());
     let odometry = OldOdometry::read(plugin, rate_hz, true);
-    odometry.note_unknown_flags(&mut replacement);
     if odometry.is_needed() {
         odometry.of_truth(&mut replacement);
     }

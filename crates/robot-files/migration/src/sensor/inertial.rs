@@ -25,7 +25,7 @@ pub(super) fn plugin(plugin: &OldPlugin<'_>) -> Replacement {
             replacement
                 .sensor
                 .push(SensorChange::Setting { group: "imu", element: world_reference() });
-            if unknown_or_no == Flag::Unknown {
+            if matches!(unknown_or_no, Flag::Unknown(_)) {
                 replacement
                     .differs("the reference of orientations is an expression: the world is used");
             }

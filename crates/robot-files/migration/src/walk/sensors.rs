@@ -10,7 +10,8 @@ use crate::{sensor, template};
 
 impl<'a> Walker<'a> {
     pub(super) fn sensor(&mut self, element: &'a Element, around: Surroundings<'a>) {
-        let old_type = element.value("type").unwrap_or_default();
+        let written_type = element.value("type").unwrap_or_default();
+        let old_type = &*self.resolved(element, written_type);
         if old_type == "multicamera" && self.split(element, around) {
             return;
         }
@@ -26,7 +27,7 @@ impl<'a> Walker<'a> {
                 self.max_rate(element, rate_hz);
             }
         }
-        if matches!(old_type, "ray" | "gpu_ray")
+        if matches!(old_type, "ray" | "gpu_ray" | "lidar" | "gpu_lidar")
             && let Some(ray) = element.child("ray")
         {
             self.edits.rename(ray, "lidar");

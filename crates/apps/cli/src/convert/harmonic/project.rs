@@ -13,7 +13,7 @@ use periplus_os::Machine;
 use periplus_plugin_specs::{Family, library_id, sites};
 use periplus_resources::{Host as _, Resolver};
 use periplus_scene::Shape;
-use periplus_xml::{decode, write_document};
+use periplus_xml::{Element, decode, write_document};
 
 use super::host::Overlay;
 use crate::error::CliError;
@@ -93,6 +93,7 @@ impl Project {
         let host = Machine;
         let (ros, has_ros_control) = self.generation();
         let joints = self.joints();
+        let expanded = self.expanded_values();
         let main = canonical(&self.loaded.path);
         let mut paths = vec![main.clone()];
         for path in &self.loaded.files {
@@ -110,6 +111,7 @@ impl Project {
                 ros,
                 has_ros_control,
                 joints: Some(&joints),
+                expanded: expanded.get(&path),
                 ..MigrationContext::new(&path, &host, resolver)
             };
             let Some(migrated) = migrate(&text, &context) else {
@@ -199,6 +201,37 @@ impl Project {
         let controls =
             sites.iter().any(|site| library_id(&site.plugin.filename) == "gazebo_ros_control");
         (ros, controls)
+    }
+
+    /// Values of attributes in the expanded robot, by file and position.
+    fn expanded_values(&self) -> BTreeMap<PathBuf, BTreeMap<u32, Vec<String>>> {
+        let mut values = BTreeMap::new();
+        if let Some(document) = &self.loaded.document {
+            self.collect_values(&document.root, &mut values);
+        }
+        values
+    }
+
+    fn collect_values(
+        &self,
+        element: &Element,
+        values: &mut BTreeMap<PathBuf, BTreeMap<u32, Vec<String>>>,
+    ) {
+        let attribute = match element.name.as_str() {
+            "plugin" => "filename",
+            "sensor" => "type",
+            _ => "",
+        };
+        if let (Some(value), Some(span)) = (element.value(attribute), element.origin.0) {
+            let file = working_folder().join(&self.loaded.sources.file(span.file).name);
+            let known = values.entry(canonical(&file)).or_default().entry(span.start).or_default();
+            if !known.iter().any(|known| known == value) {
+                known.push(value.to_owned());
+            }
+        }
+        for child in element.elements() {
+            self.collect_values(child, values);
+        }
     }
 
     /// Joints of all models, by name.

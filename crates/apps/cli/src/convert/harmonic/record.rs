@@ -8,7 +8,7 @@ use periplus_geometry::Pose;
 use periplus_graph::{NodeSettings, Qos, RawMailbox, Sample, Sink, TopicInfo};
 use periplus_loader::LoadContext;
 use periplus_resources::Resolver;
-use periplus_scene::Model;
+use periplus_scene::{Material, Model, builtin_material};
 use periplus_sim::{
     AssetFiles, Composition, Options, PhysicsMode, RobotPlacement, Simulation, compose,
 };
@@ -231,6 +231,7 @@ const ACCELERATION: &str =
     "limits of acceleration (of wheels in the old drive, of the robot in DiffDrive)";
 const TORQUE: &str = "the maximum torque of wheels (DiffDrive has none)";
 const CONTACTS: &str = "contacts of wheels with the floor (motion exactly as commanded)";
+const COLOURS: &str = "colours of visuals that have a color of URDF and a material of Gazebo (Gazebo Classic shows the first, the new file the second)";
 const GEOMETRY: &str =
     "the geometry that lidars measure (collisions in the old file, visuals in the new one)";
 
@@ -267,6 +268,17 @@ fn equalize(model: &mut Model, equalized: &mut Vec<&'static str>) {
         }
     }
     for link in &mut model.links {
+        for material in link.visuals.iter_mut().filter_map(|visual| visual.material.as_mut()) {
+            let script = material.script.as_ref().and_then(|script| builtin_material(&script.name));
+            let Some(script) = script else { continue };
+            let colours = |material: &Material| {
+                (material.ambient, material.diffuse, material.specular, material.emissive)
+            };
+            if material.ambient.is_some() && colours(material) != colours(&script) {
+                *material = script;
+                equalized.push(COLOURS);
+            }
+        }
         for sensor in &mut link.sensors {
             if sensor.type_name == "ray" {
                 sensor.type_name = "gpu_ray".to_owned();
