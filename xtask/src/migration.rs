@@ -13,6 +13,10 @@ use crate::step::{Failed, build_native, copy_folder, root, run, timed};
 /// Kinds of files in the index of the corpus.
 const KINDS: [&str; 4] = ["xacro", "urdf", "sdf", "world"];
 
+/// Arguments without a default, by a part of the file name.
+const ARGUMENTS: [(&str, &[&str]); 1] =
+    [("andino_gz_classic.xacro", &["use_gazebo_ros_control:=false"])];
+
 /// Options of `cargo xtask migration`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Options {
@@ -98,6 +102,11 @@ impl Work {
     fn periplus(&self, file: &Path, corpus: &Path) -> Command {
         let mut command = Command::new(&self.program);
         command.arg("convert").arg(file).arg("--resource-path").arg(self.repository(file, corpus));
+        let shown = file.display().to_string();
+        for (name, arguments) in ARGUMENTS.iter().filter(|(name, _)| shown.contains(name)) {
+            debug_assert!(!name.is_empty());
+            command.args(*arguments);
+        }
         command.arg("--resource-path").arg(corpus.join("gazebo_models"));
         command
     }
@@ -130,7 +139,8 @@ impl Work {
             let out = self.folder.join("out").join(inside);
             let Some(report) = &trial.report else { continue };
             for file in report["files"].as_array().into_iter().flatten() {
-                let (Some(path), Some(old)) = (file["path"].as_str(), file["replaces"].as_str()) else {
+                let (Some(path), Some(old)) = (file["path"].as_str(), file["replaces"].as_str())
+                else {
                     continue;
                 };
                 let Ok(inside) = Path::new(old).strip_prefix(&self.corpus) else { continue };
@@ -251,13 +261,16 @@ fn count(
     let mut elements = BTreeSet::new();
     for element in converted.iter().flat_map(|trial| entries(trial)) {
         // Files are included by several robots.
-        if !elements.insert(format!("{}:{}:{}", element["file"], element["line"], element["column"])) {
+        if !elements
+            .insert(format!("{}:{}:{}", element["file"], element["line"], element["column"]))
+        {
             continue;
         }
         let outcome = element["outcome"].as_str().unwrap_or_default();
         *outcomes.entry(outcome.to_owned()).or_default() += 1;
         if outcome == "no_counterpart" {
-            *missing.entry(element["old"].as_str().unwrap_or_default().to_owned()).or_default() += 1;
+            *missing.entry(element["old"].as_str().unwrap_or_default().to_owned()).or_default() +=
+                1;
         }
     }
     for (outcome, count) in &outcomes {
@@ -300,7 +313,8 @@ fn count(
             let kind = topic["types"][0].as_str().unwrap_or_default();
             for difference in topic["differences"].as_array().into_iter().flatten() {
                 let name = shown(&trial.file);
-                let words = format!("{} {}: {}", topic["topic"], difference["aspect"], difference["text"]);
+                let words =
+                    format!("{} {}: {}", topic["topic"], difference["aspect"], difference["text"]);
                 match difference["reason"].as_str() {
                     None => faults.push(format!("{name}: {words}")),
                     Some(reason) => {

@@ -6,6 +6,8 @@
 mod command;
 mod nodes;
 mod python;
+mod ros2;
+mod scan;
 mod simulator;
 
 use periplus_diagnostics::{Diagnostics, SourceFile, SourceMap};
@@ -13,6 +15,22 @@ use periplus_xml::Element;
 
 use crate::entry::{MigrationEntry, MigrationOutcome};
 use python::{ActionText, call, expression, quoted};
+
+pub use ros2::migrate_python_launch;
+
+/// Options of `spawn_entity.py`: old name, name in `create`, number of values of those without one.
+const SPAWN_NAMES: [(&str, Option<&str>, usize); 10] = [
+    ("-entity", Some("-name"), 0),
+    ("-database", None, 1),
+    ("-timeout", None, 1),
+    ("-robot_namespace", None, 1),
+    ("-reference_frame", None, 1),
+    ("-gazebo_namespace", None, 1),
+    ("-unpause", None, 0),
+    ("-wait", None, 1),
+    ("-package_to_model", None, 0),
+    ("-b", None, 0),
+];
 
 /// Converted launch file.
 #[derive(Clone, Debug)]

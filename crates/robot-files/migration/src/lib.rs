@@ -48,7 +48,7 @@ use periplus_resources::{Host, Resolver};
 
 pub use bridge::{BridgeDirection, BridgeEntry, bridge_yaml, clock_bridge};
 pub use entry::{ExpectedDifference, MigrationEntry, MigrationOutcome, TopicAspect};
-pub use launch::{MigratedLaunch, migrate_launch};
+pub use launch::{MigratedLaunch, migrate_launch, migrate_python_launch};
 
 /// Topic name in [`ExpectedDifference`] for a difference of the motion, which all measured values show.
 pub const ALL_TOPICS: &str = "/*";

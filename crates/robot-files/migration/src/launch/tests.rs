@@ -2,7 +2,7 @@
 
 use expect_test::expect;
 
-use super::migrate_launch;
+use super::{migrate_launch, migrate_python_launch};
 
 #[test]
 fn a_simulation_is_started_filled_and_bridged() {
@@ -108,4 +108,47 @@ fn conditions_and_expressions_are_kept() {
         r#"IfCondition(PythonExpression(["'", LaunchConfiguration('kind'), "'", " == 'a'"]))"#;
     assert!(launch.text.contains(condition), "{}", launch.text);
     assert!(launch.text.contains("PushRosNamespace('robot')"), "{}", launch.text);
+}
+
+#[test]
+fn a_python_file_keeps_all_but_the_calls_of_gazebo() {
+    let launch = migrate_python_launch(
+        r#"import os
+from launch.actions import IncludeLaunchDescription
+
+def generate_launch_description():
+    share = get_package_share_directory('gazebo_ros')
+    gzserver = IncludeLaunchDescription(  # the server
+        PythonLaunchDescriptionSource(os.path.join(share, 'launch', 'gzserver.launch.py')),
+        launch_arguments={'world': world, 'verbose': 'true'}.items())
+    spawn = Node(package='gazebo_ros', executable='spawn_entity.py',
+                 arguments=['-entity', 'bot', '-topic', 'robot_description', '-timeout', '30'])
+"#,
+        "a.launch.py",
+    )
+    .unwrap();
+    for part in [
+        "share = get_package_share_directory('ros_gz_sim')",
+        "gzserver = _GroupAction([IncludeLaunchDescription(  # the server",
+        "'launch', 'gz_sim.launch.py')",
+        "launch_arguments={'gz_args': ['-r -s ', world]}.items()), _Node(",
+        "package='ros_gz_sim', executable='create'",
+        "arguments=['-name', 'bot', '-topic', 'robot_description'])",
+    ] {
+        assert!(launch.text.contains(part), "{part} is missing in\n{}", launch.text);
+    }
+    assert_eq!(launch.entries.len(), 2);
+    assert!(launch.entries[0].remarks[0].contains("`verbose`"), "{:?}", launch.entries);
+}
+
+#[test]
+fn a_process_of_gazebo_becomes_gz_sim() {
+    let launch = migrate_python_launch(
+        "import os\nx = [ExecuteProcess(cmd=['gazebo', '--verbose', '-s', 'libgazebo_ros_init.so', world])]\n",
+        "a.launch.py",
+    )
+    .unwrap();
+    let call = "ExecuteProcess(cmd=['gz', 'sim', '-r', '-v', '4', world])";
+    assert!(launch.text.contains(call), "{}", launch.text);
+    assert!(migrate_python_launch("x = Node(package='a')\n", "a.launch.py").is_none());
 }

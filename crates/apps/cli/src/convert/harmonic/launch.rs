@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use periplus_launch::{Dialect, dialect};
-use periplus_migration::{BridgeEntry, MigrationEntry, migrate_launch};
+use periplus_migration::{BridgeEntry, MigrationEntry, migrate_launch, migrate_python_launch};
 use periplus_os::Machine;
 use periplus_resources::{Host as _, Resolver, package_of};
 use periplus_xml::decode;
@@ -29,6 +29,10 @@ pub(super) fn is_launch_file(file: &Path) -> bool {
     [".launch", ".launch.py", ".launch.xml", ".launch.yaml"].iter().any(|end| name.ends_with(end))
 }
 
+fn is_python(file: &Path) -> bool {
+    file.extension().is_some_and(|extension| extension == "py")
+}
+
 /// Robot or world that a launch file names.
 struct LaunchPart {
     project: Project,
@@ -46,7 +50,7 @@ struct LaunchProject {
     missing: Vec<String>,
 }
 
-/// Converts a launch file of ROS 1, those that it includes, and their robots and worlds.
+/// Converts a launch file of ROS 1 or a Python one of ROS 2, those that it includes, and their robots and worlds.
 pub(super) fn run(
     file: &Path,
     arguments: Vec<(String, String)>,
@@ -61,11 +65,11 @@ pub(super) fn run(
             file.display()
         )));
     }
-    if dialect(&Machine, &main) == Dialect::Ros2 {
+    if dialect(&Machine, &main) == Dialect::Ros2 && !is_python(&main) {
         return Err(CliError::failed(format!(
-            "{} is a launch file of ROS 2, which is not converted: replace gazebo.launch.py by gz_sim.launch.py of \
-             ros_gz_sim (argument `gz_args`), spawn_entity.py by ros_gz_sim's create (`-entity` is `-name`), and start \
-             parameter_bridge with the ros_gz_bridge.yaml that the conversion of the robot writes",
+            "{} is a launch file of ROS 2 in XML or YAML, which is not converted: replace gazebo.launch.py by \
+             gz_sim.launch.py of ros_gz_sim (argument `gz_args`), spawn_entity.py by ros_gz_sim's create (`-entity` is \
+             `-name`), and start parameter_bridge with the ros_gz_bridge.yaml that the conversion of the robot writes",
             file.display()
         )));
     }
@@ -139,9 +143,11 @@ impl LaunchProject {
                 continue;
             };
             let mut name = output_path(&path, &base);
-            let stem = name.file_name().unwrap_or_default().to_string_lossy().into_owned();
-            let stem = stem.trim_end_matches(".launch").to_owned();
-            name.set_file_name(format!("{stem}.launch.py"));
+            if !is_python(&path) {
+                let stem = name.file_name().unwrap_or_default().to_string_lossy().into_owned();
+                let stem = stem.trim_end_matches(".launch").to_owned();
+                name.set_file_name(format!("{stem}.launch.py"));
+            }
             output::write_file(folder, &name.display().to_string(), &launch.text)?;
             self.files.push((name.display().to_string(), path.clone()));
             self.entries.extend(launch.entries);
