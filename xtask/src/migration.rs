@@ -54,6 +54,8 @@ pub(crate) fn run_all(options: &Options) -> Result<(), Failed> {
     let folder = root().join("target/migration");
     let work = Work { corpus, folder, program };
     let files = work.listed(options.only.as_deref())?;
+    // Reports of an earlier run would be counted as of this one.
+    let _ = fs::remove_dir_all(work.folder.join("out"));
     println!("{} files", files.len());
     let trials = for_all(&files, options.jobs, |file| work.convert(file, options.no_compare));
     let new = work.folder.join("corpus");
@@ -156,7 +158,7 @@ impl Work {
         run(Command::new("sh").arg(build).arg(self.folder.join("bin")), help)
     }
 
-    /// Whether libsdformat loads the new files, and the old ones; keyed by the old file.
+    /// Errors of libsdformat for the old and the new files, by the old file.
     fn judge(
         &self,
         trials: &[Trial],
@@ -303,6 +305,8 @@ fn count(
     let mut verdicts: BTreeMap<&str, usize> = BTreeMap::new();
     let mut topics: BTreeMap<&str, usize> = BTreeMap::new();
     let mut reasons: BTreeMap<String, usize> = BTreeMap::new();
+    // By type: topics whose values are equal, and those whose values differ for a reason.
+    let mut values: BTreeMap<String, [usize; 2]> = BTreeMap::new();
     for trial in &converted {
         let Some(report) = &trial.report else { continue };
         let comparison = &report["comparison"];
@@ -311,6 +315,13 @@ fn count(
         for topic in comparison["topics"].as_array().into_iter().flatten() {
             *topics.entry(topic["verdict"].as_str().unwrap_or_default()).or_default() += 1;
             let kind = topic["types"][0].as_str().unwrap_or_default();
+            let differs = |difference: &Value| {
+                ["values", "presence", "type"]
+                    .contains(&difference["aspect"].as_str().unwrap_or_default())
+            };
+            let differences = topic["differences"].as_array();
+            let has_other_values = differences.into_iter().flatten().any(differs);
+            values.entry(kind.to_owned()).or_default()[usize::from(has_other_values)] += 1;
             for difference in topic["differences"].as_array().into_iter().flatten() {
                 let name = shown(&trial.file);
                 let words =
@@ -336,6 +347,9 @@ fn count(
     }
     println!("  comparison runs of files: {verdicts:?}");
     println!("  compared topics: {topics:?}");
+    for (kind, [equal, different]) in &values {
+        println!("    {kind}: values of {equal} topics within the tolerance, of {different} not");
+    }
     for (reason, count) in &reasons {
         println!("    {count} x {reason}");
     }

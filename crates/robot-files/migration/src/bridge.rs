@@ -4,7 +4,7 @@ use serde::Serialize;
 
 /// Direction of a bridged topic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-pub enum BridgeDirection {
+pub enum BridgeFlow {
     /// From Gazebo to ROS.
     #[serde(rename = "GZ_TO_ROS")]
     GzToRos,
@@ -25,7 +25,7 @@ pub struct BridgeEntry {
     /// Type on Gazebo Transport: `gz.msgs.LaserScan`.
     pub gz_type_name: &'static str,
     /// Direction.
-    pub direction: BridgeDirection,
+    pub direction: BridgeFlow,
 }
 
 impl BridgeEntry {
@@ -36,13 +36,13 @@ impl BridgeEntry {
             gz_topic_name: absolute(gz),
             ros_type_name: types.ros,
             gz_type_name: types.gz,
-            direction: BridgeDirection::GzToRos,
+            direction: BridgeFlow::GzToRos,
         }
     }
 
     /// Topic from ROS to Gazebo.
     pub(crate) fn to_gz(ros: &str, gz: &str, types: BridgeTypes) -> Self {
-        Self { direction: BridgeDirection::RosToGz, ..Self::to_ros(ros, gz, types) }
+        Self { direction: BridgeFlow::RosToGz, ..Self::to_ros(ros, gz, types) }
     }
 }
 
@@ -93,8 +93,8 @@ pub fn bridge_yaml(entries: &[BridgeEntry]) -> String {
         String::from("# Topics between Gazebo and ROS, for parameter_bridge of ros_gz_bridge.\n");
     for entry in entries {
         let direction = match entry.direction {
-            BridgeDirection::GzToRos => "GZ_TO_ROS",
-            BridgeDirection::RosToGz => "ROS_TO_GZ",
+            BridgeFlow::GzToRos => "GZ_TO_ROS",
+            BridgeFlow::RosToGz => "ROS_TO_GZ",
         };
         text.push_str(&format!(
             "- ros_topic_name: \"{}\"\n  gz_topic_name: \"{}\"\n  ros_type_name: \"{}\"\n  \

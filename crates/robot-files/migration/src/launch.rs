@@ -80,6 +80,9 @@ pub fn migrate_launch(text: &str, path: &str) -> Option<MigratedLaunch> {
     })
 }
 
+/// World of Gazebo Classic without anything in it.
+const EMPTY_WORLD: &str = "$(find gazebo_ros)/worlds/empty.world";
+
 /// Values that hold for the following elements of a scope.
 #[derive(Clone, Debug, Default)]
 struct Scope {
@@ -134,7 +137,10 @@ impl LaunchWriter<'_> {
 
     /// A text with substitutions as a Python expression.
     fn text(&mut self, text: &str) -> String {
-        let (python, names) = expression(text);
+        // The only world of Gazebo Classic's own folder that Harmonic has, too.
+        let text = if text == EMPTY_WORLD { "empty.sdf" } else { text };
+        let known: Vec<&str> = self.defaults.iter().map(|(name, _)| name.as_str()).collect();
+        let (python, names) = expression(text, &known);
         for (module, name) in names {
             self.name(module, name);
         }
@@ -186,8 +192,10 @@ impl LaunchWriter<'_> {
             arguments.push(self.text(value));
             self.name("launch.actions", "SetLaunchConfiguration")
         } else {
+            // Without a default it is known, but has no value here.
+            self.defaults
+                .push((name.to_owned(), element.value("default").unwrap_or(UNKNOWN).to_owned()));
             if let Some(default) = element.value("default") {
-                self.defaults.push((name.to_owned(), default.to_owned()));
                 let default = self.text(default);
                 arguments.push(format!("default_value={default}"));
             }
@@ -350,6 +358,9 @@ impl LaunchWriter<'_> {
 
     /// Remembers a file of a robot or world.
     fn refer(&mut self, path: &str) {
+        if self.with_defaults(path) == EMPTY_WORLD {
+            return;
+        }
         if let Some(uri) = self.uri(path).filter(|uri| !self.references.contains(uri)) {
             self.references.push(uri);
         }
@@ -373,6 +384,9 @@ impl LaunchWriter<'_> {
         (!uri.contains("$(")).then_some(uri)
     }
 }
+
+/// Value of an argument without a default, which no path contains.
+const UNKNOWN: &str = "$(arg)";
 
 /// Depth of defaults that name other arguments.
 const MAX_NESTED_DEFAULTS: usize = 4;

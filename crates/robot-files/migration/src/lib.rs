@@ -46,7 +46,7 @@ use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_plugin_specs::Family;
 use periplus_resources::{Host, Resolver};
 
-pub use bridge::{BridgeDirection, BridgeEntry, bridge_yaml, clock_bridge};
+pub use bridge::{BridgeEntry, BridgeFlow, bridge_yaml, clock_bridge};
 pub use entry::{ExpectedDifference, MigrationEntry, MigrationOutcome, TopicAspect};
 pub use launch::{MigratedLaunch, migrate_launch, migrate_python_launch};
 

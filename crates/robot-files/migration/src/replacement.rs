@@ -84,11 +84,11 @@ impl Replacement {
         self.expected.push(ExpectedDifference { topic, aspect, reason: reason.into() });
     }
 
-    pub(crate) fn to_ros(&mut self, ros: &str, gz: &str, types: BridgeTypes) {
+    pub(crate) fn bridge_to_ros(&mut self, ros: &str, gz: &str, types: BridgeTypes) {
         self.bridge.push(BridgeEntry::to_ros(ros, gz, types));
     }
 
-    pub(crate) fn to_gz(&mut self, ros: &str, gz: &str, types: BridgeTypes) {
+    pub(crate) fn bridge_to_gz(&mut self, ros: &str, gz: &str, types: BridgeTypes) {
         self.bridge.push(BridgeEntry::to_gz(ros, gz, types));
     }
 }

@@ -74,8 +74,8 @@ impl<'a> SourceText<'a> {
 /// Length of the tag, comment, section or instruction at the start of a text.
 fn tag_length(text: &str) -> Option<usize> {
     let until = |end: &str| text.find(end).map(|at| at + end.len());
-    if text.starts_with("<!--") {
-        return text[4..].find("-->").map(|at| at + 7);
+    if let Some(inner) = text.strip_prefix("<!--") {
+        return inner.find("-->").map(|at| at + "<!---->".len());
     }
     if text.starts_with("<![CDATA[") {
         return until("]]>");

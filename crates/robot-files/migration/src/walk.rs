@@ -147,7 +147,7 @@ impl<'a> Walker<'a> {
         }
     }
 
-    /// Value of an attribute that is an expression, if it is the same in all places where the element is used.
+    /// Value of an attribute that is an expression, if it is the same wherever the element is used.
     fn resolved(&self, element: &Element, written: &str) -> String {
         let start = element.origin.0.map(|span| span.start);
         let values = start.and_then(|start| self.context.expanded?.get(&start));

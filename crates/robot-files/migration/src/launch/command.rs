@@ -41,7 +41,7 @@ impl LaunchWriter<'_> {
     /// The xacro or URDF file in a command.
     fn name_robot(&mut self, command: &str) {
         let command = self.with_defaults(command);
-        // Substitutions have blanks of their own.
+        // Substitutions contain blanks.
         let whole = command.replace("$(find ", "$(find\u{1}");
         for word in whole.split_whitespace() {
             let word = word.trim_matches(['\'', '"']).replace('\u{1}', " ");

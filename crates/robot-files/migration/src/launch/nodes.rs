@@ -96,6 +96,12 @@ impl LaunchWriter<'_> {
                 MigrationOutcome::Converted,
                 &["the controllers must be in the parameter file of gz_ros2_control"],
             ),
+            "map_server" | "amcl" | "gmapping" | "robot_localization" => (
+                MigrationOutcome::Approximated,
+                &[
+                    "the node of ROS 2 is a lifecycle node or has other parameters and arguments: see its documentation",
+                ],
+            ),
             _ if renamed.is_some() || package == "robot_state_publisher" => {
                 (MigrationOutcome::Converted, &[])
             }

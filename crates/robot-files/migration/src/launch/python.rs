@@ -108,7 +108,9 @@ fn closing(text: &str) -> Option<usize> {
 }
 
 /// A text as a Python expression: a literal, a substitution, or a list of both; with the names that it needs.
-pub(super) fn expression(text: &str) -> (String, Imports) {
+///
+/// `known` are the arguments of the file, which `$(eval ...)` can use by their names alone.
+pub(super) fn expression(text: &str, known: &[&str]) -> (String, Imports) {
     let mut imports = Vec::new();
     let parts = parts(text);
     let mut written: Vec<String> = Vec::new();
@@ -116,7 +118,7 @@ pub(super) fn expression(text: &str) -> (String, Imports) {
         match part {
             LaunchPart::Literal(text) => written.push(quoted(text)),
             LaunchPart::Substitution(inner) => {
-                let (python, names) = substitution(inner);
+                let (python, names) = substitution(inner, known);
                 written.push(python);
                 imports.extend(names);
             }
@@ -132,7 +134,7 @@ pub(super) fn expression(text: &str) -> (String, Imports) {
 
 const SUBSTITUTIONS: &str = "launch.substitutions";
 
-fn substitution(inner: &str) -> (String, Imports) {
+fn substitution(inner: &str, known: &[&str]) -> (String, Imports) {
     let (kind, rest) = inner.trim().split_once(char::is_whitespace).unwrap_or((inner.trim(), ""));
     let rest = rest.trim();
     match kind {
@@ -161,28 +163,54 @@ fn substitution(inner: &str) -> (String, Imports) {
         }
         "anon" => (format!("AnonName({})", quoted(rest)), vec![(SUBSTITUTIONS, "AnonName")]),
         "dirname" => ("ThisLaunchFileDir()".to_owned(), vec![(SUBSTITUTIONS, "ThisLaunchFileDir")]),
-        "eval" => evaluated(rest),
+        "eval" => evaluated(rest, known),
         _ => (quoted(&format!("$({inner})")), Vec::new()),
     }
 }
 
-/// `$(eval ...)` with `arg('x')` as quoted text of the configuration, as roslaunch passes strings.
-fn evaluated(text: &str) -> (String, Imports) {
+/// `$(eval ...)` with `arg('x')`, or a bare `x`, as quoted text of the configuration: roslaunch passes strings.
+fn evaluated(text: &str, known: &[&str]) -> (String, Imports) {
     let mut written: Vec<String> = Vec::new();
     let mut imports = vec![(SUBSTITUTIONS, "PythonExpression")];
-    let mut rest = text;
-    while let Some(start) = rest.find("arg(") {
-        let after = &rest[start + 4..];
-        let Some(end) = after.find(')') else { break };
-        let name = after[..end].trim().trim_matches(['\'', '"']);
-        written.push(quoted(&format!("{}'", &rest[..start])));
-        written.push(format!("LaunchConfiguration({})", quoted(name)));
+    let mut plain = String::new();
+    let mut at = 0;
+    while let Some(character) = text[at..].chars().next() {
+        let rest = &text[at..];
+        if matches!(character, '\'' | '"') {
+            let end = rest[1..].find(character).map_or(rest.len(), |end| end + 2);
+            plain.push_str(&rest[..end]);
+            at += end;
+            continue;
+        }
+        let word: String = rest.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
+        if word.is_empty() {
+            plain.push(character);
+            at += character.len_utf8();
+            continue;
+        }
+        at += word.len();
+        let call = text[at..].strip_prefix('(').filter(|_| word == "arg");
+        let argument = call.and_then(|inner| {
+            let end = inner.find(')')?;
+            Some((inner[..end].trim().trim_matches(['\'', '"']).to_owned(), end + 2))
+        });
+        let (name, length) = match argument {
+            Some((name, length)) => (Some(name), length),
+            None => (known.contains(&word.as_str()).then(|| word.clone()), 0),
+        };
+        at += length;
+        let Some(name) = name else {
+            plain.push_str(&word);
+            continue;
+        };
+        plain.push('\'');
+        written.push(quoted(&std::mem::take(&mut plain)));
+        written.push(format!("LaunchConfiguration({})", quoted(&name)));
         imports.push((SUBSTITUTIONS, "LaunchConfiguration"));
-        rest = &after[end + 1..];
-        written.push("\"'\"".to_owned());
+        plain.push('\'');
     }
-    if !rest.is_empty() {
-        written.push(quoted(rest));
+    if !plain.is_empty() {
+        written.push(quoted(&plain));
     }
     (format!("PythonExpression([{}])", written.join(", ")), imports)
 }

@@ -8,7 +8,7 @@ use super::scan::{PythonArgument, PythonCall, calls, items, literal};
 use super::{MigratedLaunch, SPAWN_NAMES};
 use crate::entry::{MigrationEntry, MigrationOutcome};
 
-/// Imports of what is added, under names of their own.
+/// Imports of what is added, under separate names.
 const IMPORTS: &str = "import os as _os\n\nfrom launch.actions import GroupAction as _GroupAction\nfrom launch_ros.actions import Node \
                        as _Node\n";
 
@@ -129,7 +129,9 @@ impl Editor<'_> {
             .into_iter()
             .find(|name| body.contains(*name));
         let Some(file) = file else { return };
-        if calls(&body["IncludeLaunchDescription".len()..], "IncludeLaunchDescription").len() > 0 {
+        // An outer include contains inner ones, which are found, too.
+        let inner = &body["IncludeLaunchDescription".len()..];
+        if !calls(inner, "IncludeLaunchDescription").is_empty() {
             return;
         }
         let Some(at) = body.find(file).map(|at| call.range.start + at) else { return };

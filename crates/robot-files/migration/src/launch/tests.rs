@@ -105,9 +105,18 @@ fn conditions_and_expressions_are_kept() {
     )
     .unwrap();
     let condition =
-        r#"IfCondition(PythonExpression(["'", LaunchConfiguration('kind'), "'", " == 'a'"]))"#;
+        r#"IfCondition(PythonExpression(["'", LaunchConfiguration('kind'), "' == 'a'"]))"#;
     assert!(launch.text.contains(condition), "{}", launch.text);
     assert!(launch.text.contains("PushRosNamespace('robot')"), "{}", launch.text);
+    // roslaunch also knows arguments by their bare names, but not in quotes.
+    let bare = migrate_launch(
+        "<launch><arg name='map' default=''/><node name='n' pkg='p' type='t' unless=\"$(eval map == 'map')\"/></launch>",
+        "a.launch",
+    )
+    .unwrap();
+    let condition =
+        r#"UnlessCondition(PythonExpression(["'", LaunchConfiguration('map'), "' == 'map'"]))"#;
+    assert!(bare.text.contains(condition), "{}", bare.text);
 }
 
 #[test]

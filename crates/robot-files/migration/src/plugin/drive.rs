@@ -75,11 +75,11 @@ impl OldOdometry {
             }
         };
         if add(&self.is_published, "odom_topic", &self.topic) {
-            replacement.to_ros(&self.topic, &self.topic, ODOMETRY);
+            replacement.bridge_to_ros(&self.topic, &self.topic, ODOMETRY);
             replacement.expects(&self.topic, TopicAspect::Fields, COVARIANCE);
         }
         if add(&self.has_transform, "tf_topic", "/tf") {
-            replacement.to_ros("/tf", "/tf", TRANSFORMS);
+            replacement.bridge_to_ros("/tf", "/tf", TRANSFORMS);
         }
     }
 
@@ -135,7 +135,7 @@ pub(super) fn differential(plugin: &OldPlugin<'_>, context: &MigrationContext<'_
     let command = plugin.topic(&["commandTopic"], "cmd_vel");
     let command = if plugin.is_ros1() { command } else { plugin.ros_topic("cmd_vel") };
     drive.push(leaf("topic", &command));
-    replacement.to_gz(&command, &command, TWIST);
+    replacement.bridge_to_gz(&command, &command, TWIST);
     // `updateRate` has no effect on ROS 2.
     let rate = if plugin.is_ros1() { "updateRate" } else { "update_rate" };
     let rate_hz = plugin.text(&[rate]).unwrap_or_else(|| "100".to_owned());
@@ -193,7 +193,7 @@ pub(super) fn differential(plugin: &OldPlugin<'_>, context: &MigrationContext<'_
             states.push(leaf("joint_name", joint));
         }
         replacement.elements.push(states);
-        replacement.to_ros(&topic, &topic, JOINT_STATES);
+        replacement.bridge_to_ros(&topic, &topic, JOINT_STATES);
         replacement.expects(&topic, TopicAspect::Fields, super::state::EFFORTS);
     }
     replacement
@@ -301,7 +301,7 @@ fn accelerate(
 pub(crate) const ANY_MOTION: &str = crate::ALL_TOPICS;
 
 const ACCELERATION: &str = "DiffDrive limits the acceleration of the robot, the old plugin that of each wheel in steps of \
-                            its own rate: after a change of the command the robots differ until both have the new speed";
+                            the plugin's rate: after a change of the command the robots differ until both have the new speed";
 
 /// `gazebo_ros_planar_move`.
 pub(super) fn planar(plugin: &OldPlugin<'_>) -> Replacement {
@@ -314,7 +314,7 @@ pub(super) fn planar(plugin: &OldPlugin<'_>) -> Replacement {
     let mut control = system("velocity-control", "VelocityControl");
     control.push(leaf("topic", &command));
     replacement.elements.push(control);
-    replacement.to_gz(&command, &command, TWIST);
+    replacement.bridge_to_gz(&command, &command, TWIST);
     let rate = if plugin.is_ros1() { "odometryRate" } else { "publish_rate" };
     let rate_hz = plugin.text(&[rate]).unwrap_or_else(|| "20".to_owned());
     let odometry = OldOdometry::read(plugin, rate_hz, true);

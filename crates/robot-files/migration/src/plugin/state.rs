@@ -22,7 +22,7 @@ pub(super) fn joint_states(plugin: &OldPlugin<'_>) -> Replacement {
         }
     }
     replacement.elements.push(states);
-    replacement.to_ros(&topic, &topic, JOINT_STATES);
+    replacement.bridge_to_ros(&topic, &topic, JOINT_STATES);
     replacement.expects(&topic, TopicAspect::Fields, EFFORTS);
     replacement
 }
@@ -68,7 +68,7 @@ pub(super) fn true_pose(plugin: &OldPlugin<'_>) -> Replacement {
         truth.push(leaf("gaussian_noise", noise));
     }
     replacement.elements.push(truth);
-    replacement.to_ros(&topic, &topic, ODOMETRY);
+    replacement.bridge_to_ros(&topic, &topic, ODOMETRY);
     let reason = format!(
         "OdometryPublisher publishes the pose of the model, gazebo_ros_p3d that of the link `{body}`; \
          they are equal if this link is the model's first one, or fixed to it at its origin"

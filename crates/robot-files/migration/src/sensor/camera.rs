@@ -107,8 +107,8 @@ const SMALLEST_DISTORTION: f64 = 1e-6;
 fn colour(plugin: &OldPlugin<'_>, topics: &OldTopics) -> Replacement {
     let mut replacement = Replacement::new(MigrationOutcome::Converted);
     publishing(plugin, &topics.image, &mut replacement);
-    replacement.to_ros(&topics.image, &topics.image, IMAGE);
-    replacement.to_ros(&topics.info, &topics.info, CAMERA_INFO);
+    replacement.bridge_to_ros(&topics.image, &topics.image, IMAGE);
+    replacement.bridge_to_ros(&topics.info, &topics.info, CAMERA_INFO);
     let usual = topics.image.rsplit_once('/').map_or("", |(above, _)| above);
     if format!("{usual}/camera_info") != topics.info {
         replacement.sensor.push(SensorChange::Setting {
@@ -127,7 +127,7 @@ fn colour(plugin: &OldPlugin<'_>, topics: &OldTopics) -> Replacement {
         for element in [leaf("triggered", "true"), leaf("trigger_topic", &trigger)] {
             replacement.sensor.push(SensorChange::Setting { group: "camera", element });
         }
-        replacement.to_gz(&trigger, &trigger, TRIGGER);
+        replacement.bridge_to_gz(&trigger, &trigger, TRIGGER);
         replacement.differs("triggers are std_msgs/msg/Bool instead of std_msgs/msg/Empty");
         for topic in [&topics.image, &topics.info] {
             for aspect in [TopicAspect::Presence, TopicAspect::Rate] {
@@ -169,11 +169,11 @@ fn depth(plugin: &OldPlugin<'_>, topics: &OldTopics) -> Replacement {
         });
     }
     let below = |name: &str| format!("{base}/{name}");
-    replacement.to_ros(&topics.image, &below("image"), IMAGE);
-    replacement.to_ros(&topics.info, &below("camera_info"), CAMERA_INFO);
-    replacement.to_ros(&topics.depth, &below("depth_image"), IMAGE);
-    replacement.to_ros(&topics.depth_info, &below("camera_info"), CAMERA_INFO);
-    replacement.to_ros(&topics.points, &below("points"), CLOUD);
+    replacement.bridge_to_ros(&topics.image, &below("image"), IMAGE);
+    replacement.bridge_to_ros(&topics.info, &below("camera_info"), CAMERA_INFO);
+    replacement.bridge_to_ros(&topics.depth, &below("depth_image"), IMAGE);
+    replacement.bridge_to_ros(&topics.depth_info, &below("camera_info"), CAMERA_INFO);
+    replacement.bridge_to_ros(&topics.points, &below("points"), CLOUD);
     let reason = "points of gz are along the axes of the sensor (x forward) in the frame of its link, \
                   those of the old plugin along the optical axes (z forward)";
     replacement.remark(reason);

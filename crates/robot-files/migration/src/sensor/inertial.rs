@@ -17,7 +17,7 @@ pub(super) fn plugin(plugin: &OldPlugin<'_>) -> Replacement {
         plugin.ros_topic("~/out")
     };
     publishing(plugin, &topic, &mut replacement);
-    replacement.to_ros(&topic, &topic, IMU);
+    replacement.bridge_to_ros(&topic, &topic, IMU);
     let names = ["initial_orientation_as_reference", "initialOrientationAsReference"];
     match plugin.flag(&names, false) {
         Flag::Yes => {}
@@ -105,7 +105,7 @@ pub(super) fn of_body(plugin: &OldPlugin<'_>) -> Replacement {
     imu.push(world_reference());
     sensor.push(imu);
     replacement.attached.push(Attached { parent: AttachmentParent::Link(body), sensor });
-    replacement.to_ros(&topic, &topic, IMU);
+    replacement.bridge_to_ros(&topic, &topic, IMU);
     replacement.expects(&topic, TopicAspect::Fields, COVARIANCE);
     if is_hector {
         replacement.differs(

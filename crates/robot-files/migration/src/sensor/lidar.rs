@@ -46,7 +46,7 @@ pub(super) fn plugin(plugin: &OldPlugin<'_>) -> Replacement {
     publishing(plugin, &topic, &mut replacement);
     match message {
         OldMessage::Scan => {
-            replacement.to_ros(&topic, &topic, SCAN);
+            replacement.bridge_to_ros(&topic, &topic, SCAN);
             if plugin.is_ros1() {
                 replacement.expects(
                     &topic,
@@ -67,7 +67,7 @@ pub(super) fn plugin(plugin: &OldPlugin<'_>) -> Replacement {
             );
         }
         OldMessage::Range => {
-            replacement.to_ros(&topic, &topic, SCAN);
+            replacement.bridge_to_ros(&topic, &topic, SCAN);
             let reason = "the bridge has no sensor_msgs/Range: the beams arrive as sensor_msgs/LaserScan, \
                           whose smallest range is the old value";
             replacement.differs(reason);
@@ -86,7 +86,7 @@ pub(super) fn plugin(plugin: &OldPlugin<'_>) -> Replacement {
 }
 
 fn cloud(plugin: &OldPlugin<'_>, topic: &str, replacement: &mut Replacement) {
-    replacement.to_ros(topic, &format!("{topic}/points"), CLOUD);
+    replacement.bridge_to_ros(topic, &format!("{topic}/points"), CLOUD);
     let reason = "the cloud of gz has all beams in rows (also infinite ones) and the field `ring`; the \
                   old one had the returns only";
     replacement.remark(reason);

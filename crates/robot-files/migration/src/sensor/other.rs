@@ -19,7 +19,7 @@ pub(super) fn bumper(plugin: &OldPlugin<'_>) -> Replacement {
     replacement
         .sensor
         .push(SensorChange::Setting { group: "contact", element: leaf("topic", &topic) });
-    replacement.to_ros(&topic, &topic, CONTACTS);
+    replacement.bridge_to_ros(&topic, &topic, CONTACTS);
     let reason = "contacts are ros_gz_interfaces/msg/Contacts instead of gazebo_msgs/ContactsState";
     replacement.remark(reason);
     replacement.expects(&topic, TopicAspect::Type, reason);
@@ -37,7 +37,7 @@ pub(super) fn satellite(plugin: &OldPlugin<'_>) -> Replacement {
     let topic = plugin.ros_topic("~/out");
     replacement.sensor.push(SensorChange::Type("navsat"));
     publishing(plugin, &topic, &mut replacement);
-    replacement.to_ros(&topic, &topic, NAVSAT);
+    replacement.bridge_to_ros(&topic, &topic, NAVSAT);
     let velocity = plugin.ros_topic("~/vel");
     replacement.differs(COORDINATES);
     replacement.expects(&topic, TopicAspect::Fields, "the bridge fills no covariance");
@@ -54,7 +54,7 @@ pub(super) fn satellite_of_body(plugin: &OldPlugin<'_>) -> Replacement {
     let Some(sensor) = body_sensor(plugin, "navsat", &topic, &mut replacement) else {
         return replacement;
     };
-    replacement.to_ros(&topic, &topic, NAVSAT);
+    replacement.bridge_to_ros(&topic, &topic, NAVSAT);
     replacement.attached.push(sensor);
     let latitude = plugin.text(&["referenceLatitude"]).unwrap_or_else(|| "49.9".to_owned());
     let longitude = plugin.text(&["referenceLongitude"]).unwrap_or_else(|| "8.9".to_owned());
@@ -74,7 +74,7 @@ pub(super) fn magnetometer_of_body(plugin: &OldPlugin<'_>) -> Replacement {
         return replacement;
     };
     replacement.attached.push(sensor);
-    replacement.to_ros(&topic, &topic, MAGNETOMETER);
+    replacement.bridge_to_ros(&topic, &topic, MAGNETOMETER);
     replacement.remark(
         "the field is that of <magnetic_field> in the world, in tesla (sensor_msgs/msg/MagneticField); \
          drift and offsets are not converted",
@@ -134,7 +134,7 @@ pub(super) fn force_torque(plugin: &OldPlugin<'_>) -> Replacement {
         .with_child(leaf("update_rate", rate_hz))
         .with_child(settings);
     replacement.attached.push(Attached { parent: AttachmentParent::Joint(joint), sensor });
-    replacement.to_ros(&topic, &topic, WRENCH);
+    replacement.bridge_to_ros(&topic, &topic, WRENCH);
     if plugin.surroundings.is_urdf {
         replacement.remark(
             "a fixed joint keeps its sensor only with <preserveFixedJoint>true</preserveFixedJoint>",

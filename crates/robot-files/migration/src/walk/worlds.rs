@@ -111,7 +111,7 @@ impl<'a> Walker<'a> {
         if remarks.is_empty() {
             return;
         }
-        // With Classic's plugins gz-sim would open without any of its own.
+        // With Classic's plugins gz-sim would open without its own.
         self.edits.remove(element);
         self.entry(element, "<gui>", "", MigrationOutcome::NoEffect, remarks);
     }
@@ -160,7 +160,7 @@ impl<'a> Walker<'a> {
         }
         let new = format!("{} models", models.len());
         self.edits.replace(element, &models);
-        let remark = "gz-sim has no populations: the models are written one by one, where Periplus places them"
+        let remark = "gz-sim has no populations: the models are written one by one, at the poses that Periplus gives them"
             .to_owned();
         self.entry(element, name, new, MigrationOutcome::Converted, vec![remark]);
     }

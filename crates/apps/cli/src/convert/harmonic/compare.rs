@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use periplus_migration::{ALL_TOPICS, BridgeDirection, TopicAspect};
+use periplus_migration::{ALL_TOPICS, BridgeFlow, TopicAspect};
 use serde::Serialize;
 
 use super::difference::{Deviation, Difference, Verdict};
@@ -279,7 +279,7 @@ fn links(old: &RunLog, new: &RunLog, differences: &mut Vec<Difference>) {
 
 /// All topics of the old description beside those of the new one.
 fn topics(project: &Project, old: &RunLog, new: &RunLog) -> Vec<TopicComparison> {
-    let bridged = project.bridge.iter().filter(|entry| entry.direction == BridgeDirection::GzToRos);
+    let bridged = project.bridge.iter().filter(|entry| entry.direction == BridgeFlow::GzToRos);
     let names: BTreeMap<&str, &str> = bridged
         .map(|entry| (entry.ros_topic_name.as_str(), entry.gz_topic_name.as_str()))
         .collect();
@@ -374,4 +374,30 @@ fn rate_hz(log: &TopicLog) -> f64 {
     #[expect(clippy::cast_precision_loss, reason = "a run has less than 2^53 messages and ns")]
     let rate_hz = (log.samples.len() - 1) as f64 * 1e9 / span_ns as f64;
     rate_hz
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_difference_without_a_reason_decides() {
+        let mut differences = vec![Difference::new(TopicAspect::Rate, "10 Hz and 20 Hz")];
+        assert_eq!(verdict(&[]), Verdict::Equal);
+        assert_eq!(verdict(&differences), Verdict::Unexplained);
+        differences[0].reason = Some("known".to_owned());
+        assert_eq!(verdict(&differences), Verdict::Explained);
+        differences.push(Difference::new(TopicAspect::Values, "far"));
+        assert_eq!(verdict(&differences), Verdict::Unexplained);
+    }
+
+    #[test]
+    fn a_missing_topic_and_another_rate_are_differences() {
+        let log = TopicLog { type_name: "a/msg/B".to_owned(), samples: Vec::new() };
+        let missing = compared("/a", "/a", &log, None);
+        assert_eq!(missing.differences[0].aspect, TopicAspect::Presence);
+        let other = TopicLog { type_name: "a/msg/C".to_owned(), samples: Vec::new() };
+        let retyped = compared("/a", "/a", &log, Some(&other));
+        assert_eq!(retyped.differences[0].aspect, TopicAspect::Type);
+    }
 }

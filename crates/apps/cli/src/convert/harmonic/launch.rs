@@ -133,15 +133,29 @@ impl LaunchProject {
             let Ok(bytes) = host.read(&path) else { continue };
             let text = decode(&bytes)
                 .map_err(|error| CliError::failed(format!("{}: {error}", path.display())))?;
-            let Some(launch) = migrate_launch(&text, &path.display().to_string()) else {
+            let shown = path.display().to_string();
+            let migrated = if is_python(&path) {
+                migrate_python_launch(&text, &shown)
+            } else {
+                migrate_launch(&text, &shown)
+            };
+            let Some(launch) = migrated else {
                 if path == main {
-                    return Err(CliError::failed(format!(
-                        "{} is not a launch file in XML",
-                        path.display()
-                    )));
+                    let what = if is_python(&path) {
+                        "starts nothing of Gazebo Classic, so nothing is converted"
+                    } else {
+                        "is not a launch file in XML"
+                    };
+                    return Err(CliError::failed(format!("{shown} {what}")));
                 }
                 continue;
             };
+            if is_python(&path) {
+                self.missing.push(format!(
+                    "the robots and worlds that {shown} names: convert them, too, and put the topics of their \
+                     {BRIDGE} into the one beside the launch file"
+                ));
+            }
             let mut name = output_path(&path, &base);
             if !is_python(&path) {
                 let stem = name.file_name().unwrap_or_default().to_string_lossy().into_owned();

@@ -22,10 +22,10 @@ const SCAN_TOLERANCE_M: f64 = 1e-3;
 /// Tolerance of odometry, of the distance driven \[%\].
 const ODOMETRY_TOLERANCE_PERCENT: f64 = 1.0;
 
-/// Distance below which a robot counts as standing, for percentages \[m\].
+/// Distance below which a robot counts as stationary, for percentages \[m\].
 const MIN_DISTANCE_M: f64 = 0.1;
 
-/// Rotation below which a robot counts as standing, for percentages \[rad\].
+/// Rotation below which a robot counts as stationary, for percentages \[rad\].
 const MIN_ROTATION_RAD: f64 = 0.1;
 
 /// Tolerance of angular velocities of an IMU \[rad/s\].
@@ -497,7 +497,7 @@ mod tests {
     #[test]
     fn scans_that_differ_are_measured_beam_by_beam() {
         let scan = |ranges: &[f32]| {
-            Arc::new(LaserScan { ranges: ranges.to_vec().into(), ..LaserScan::default() })
+            Arc::new(LaserScan { ranges: ranges.to_vec(), ..LaserScan::default() })
         };
         let mut measured = Measured::default();
         let far = f32::INFINITY;

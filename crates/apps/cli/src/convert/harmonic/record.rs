@@ -64,7 +64,7 @@ pub(super) enum RunKind {
     Kinematic,
 }
 
-/// What to simulate.
+/// Description and options of a run.
 pub(super) struct RunSetup<'a> {
     pub(super) file: &'a Path,
     pub(super) arguments: &'a [(String, String)],
@@ -73,7 +73,7 @@ pub(super) struct RunSetup<'a> {
     pub(super) is_robot: bool,
     /// True to send commands to the drives.
     pub(super) is_driven: bool,
-    /// What is simulated.
+    /// Kind of the run.
     pub(super) kind: RunKind,
 }
 

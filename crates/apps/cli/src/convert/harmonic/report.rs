@@ -78,8 +78,8 @@ pub(super) fn markdown(project: &Project, files: &[String], comparison: &Compari
         );
         for entry in &project.bridge {
             let arrow = match entry.direction {
-                periplus_migration::BridgeDirection::GzToRos => "Gazebo to ROS",
-                periplus_migration::BridgeDirection::RosToGz => "ROS to Gazebo",
+                periplus_migration::BridgeFlow::GzToRos => "Gazebo to ROS",
+                periplus_migration::BridgeFlow::RosToGz => "ROS to Gazebo",
             };
             let _ = writeln!(
                 text,
