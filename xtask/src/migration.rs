@@ -57,8 +57,10 @@ pub(crate) fn run_all(options: &Options) -> Result<(), Failed> {
     // Reports of an earlier run would be counted as of this one.
     let _ = fs::remove_dir_all(work.folder.join("out"));
     println!("{} files", files.len());
-    let trials = for_all(&files, options.jobs, |file| work.convert(file, options.no_compare));
     let new = work.folder.join("corpus");
+    work.link(&work.corpus)?;
+    work.link(&new)?;
+    let trials = for_all(&files, options.jobs, |file| work.convert(file, options.no_compare));
     work.replace(&trials, &new)?;
     let oracle = work.folder.join("bin/sdf_oracle");
     let built = timed("libsdformat: build the oracle", || work.build());
@@ -110,7 +112,26 @@ impl Work {
             command.args(*arguments);
         }
         command.arg("--resource-path").arg(corpus.join("gazebo_models"));
+        command.arg("--resource-path").arg(self.packages(corpus));
         command
+    }
+
+    /// Folder of packages whose folders have other names in the corpus: the PR2 asks for the package `xacro`.
+    fn packages(&self, corpus: &Path) -> PathBuf {
+        let side = if corpus == self.corpus { "old" } else { "new" };
+        self.folder.join("packages").join(side)
+    }
+
+    /// Links the packages of [`Work::packages`].
+    fn link(&self, corpus: &Path) -> Result<(), Failed> {
+        let folder = self.packages(corpus);
+        let failed = |error: std::io::Error| Failed(format!("{}: {error}", folder.display()));
+        let _ = fs::remove_dir_all(&folder);
+        fs::create_dir_all(&folder).map_err(failed)?;
+        #[cfg(unix)]
+        std::os::unix::fs::symlink(corpus.join("xacro_tests"), folder.join("xacro"))
+            .map_err(failed)?;
+        Ok(())
     }
 
     fn convert(&self, file: &Path, no_compare: bool) -> Trial {

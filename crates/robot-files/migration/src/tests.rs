@@ -242,3 +242,33 @@ fn names_of_a_depth_camera_are_kept_by_the_bridge() {
     );
     assert!(migrated.text.contains("type='rgbd_camera'"), "{}", migrated.text);
 }
+
+/// Files that are cut off anywhere: many are no XML any more, and none may cause a panic.
+#[test]
+fn cut_off_files_are_refused_or_converted() {
+    let sdf = "<?xml version='1.0'?><sdf version='1.4'><world name='wörld'><include>
+        <uri>model://sun</uri></include><state world_name='wörld'><model name='m'><pose>1 2</pose>
+        <link name='l'><pose/></link></model></state><model name='m'><pose/><link name='l'>
+        <inertial/><sensor type='ray' name='é'><ray/><topic>~/x</topic>
+        <plugin filename='libgazebo_ros_laser.so'/></sensor></link></model></world></sdf>";
+    let launch = "<launch><arg name='é' default='$(find p)/x'/><node pkg='gazebo_ros' name='n'
+        type='spawn_model' args='-model $(arg é) -J a'/><group if='$(eval é == (1)'>
+        <include file='$(find gazebo_ros)/launch/x'/></group></launch>";
+    let python = "import os\nx = [Node(package='gazebo_ros', executable='spawn_entity.py',
+        arguments=['-entity', \"é\"]), IncludeLaunchDescription('gazebo.launch.py',
+        launch_arguments={'world': 'é'}.items()),  # é
+        ExecuteProcess(cmd=['gzserver', '''é'''])]";
+    let script = "material Wall/é { technique { pass { ambient 1 1 1 diffuse é } } }";
+    for text in [sdf, launch, python, script] {
+        for (at, _) in text.char_indices() {
+            let cut = &text[..at];
+            let host = MemoryHost::new();
+            let resolver = Resolver::new(&host, &[]);
+            let context = MigrationContext::new("/w.world".as_ref(), &host, &resolver);
+            let _ = migrate(cut, &context);
+            let _ = crate::migrate_launch(cut, "a.launch");
+            let _ = crate::migrate_python_launch(cut, "a.launch.py");
+            let _ = crate::ogre::find_material(cut, "Wall/é");
+        }
+    }
+}

@@ -292,7 +292,8 @@ fn topics(project: &Project, old: &RunLog, new: &RunLog) -> Vec<TopicComparison>
             .or_else(|| new.topics.get(periplus_sim_topic(gz_topic).as_str()));
         let mut row = compared(topic, gz_topic, log, other);
         for difference in &mut row.differences {
-            difference.reason = reason(project, topic, difference);
+            difference.reason =
+                reason(project, topic, difference).or_else(|| shared(project, topic));
         }
         rows.push(row);
     }
@@ -302,6 +303,22 @@ fn topics(project: &Project, old: &RunLog, new: &RunLog) -> Vec<TopicComparison>
 /// Name of a Gazebo topic in the simulation: a valid name of ROS.
 fn periplus_sim_topic(name: &str) -> String {
     periplus_graph::valid_topic_name(name)
+}
+
+/// Reason for the differences of a topic that several sensors publish.
+fn shared(project: &Project, topic: &str) -> Option<String> {
+    let sources: BTreeSet<&str> = project
+        .bridge
+        .iter()
+        .filter(|entry| entry.direction == BridgeFlow::GzToRos && entry.ros_topic_name == topic)
+        .map(|entry| entry.gz_topic_name.as_str())
+        .collect();
+    (sources.len() > 1).then(|| {
+        format!(
+            "several old sensors publish this topic; in the new file these are {}, of which one was compared",
+            sources.into_iter().collect::<Vec<_>>().join(", ")
+        )
+    })
 }
 
 fn reason(project: &Project, topic: &str, difference: &Difference) -> Option<String> {
