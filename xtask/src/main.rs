@@ -20,6 +20,7 @@ mod fuzz;
 mod goals;
 mod layers;
 mod localization;
+mod migration;
 mod package;
 mod parallel;
 mod physics;
@@ -131,6 +132,9 @@ enum Task {
         #[arg(long)]
         check: bool,
     },
+    /// Convert every robot and world of the corpus to Gazebo Harmonic, load the results with libsdformat, and compare the
+    /// old and the new files in a run
+    Migration(migration::Options),
     /// Drive every robot of the corpus with a drive for five simulated seconds
     Drive,
     /// Drive robots to random goals in several worlds, on maps that SLAM made, with Nav2's own parameters; prints goals
@@ -368,6 +372,7 @@ fn perform(task: &Task) -> Result<(), Failed> {
         }
         Task::Codegen { check } => codegen::run(*check),
         Task::Drive => drive::corpus(),
+        Task::Migration(options) => migration::run_all(options),
         Task::Wasm { check: true, .. } => wasm::check(),
         Task::Wasm { page: true, .. } => wasm::page(),
         Task::Wasm { seconds, .. } => wasm::all(*seconds),

@@ -1,5 +1,7 @@
 //! `periplus convert`.
 
+mod harmonic;
+
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -16,6 +18,15 @@ use crate::paths;
 use crate::terminal::{self, with_setting, working_folder};
 
 pub(crate) fn run(options: &ConvertOptions) -> Result<ExitCode, CliError> {
+    if options.to == Format::Harmonic {
+        return harmonic::run(options);
+    }
+    if options.out.is_some() || options.no_compare || options.json {
+        return Err(CliError::usage(
+            "`--out`, `--no-compare` and `--json` are for `--to harmonic`; other formats are written to \
+             stdout or to `--output FILE`",
+        ));
+    }
     let (files, arguments) = split(&options.words);
     let [file] = files.as_slice() else {
         return Err(CliError::usage("convert takes one file; see `periplus convert --help`"));
@@ -170,6 +181,13 @@ fn convert(loaded: &mut LoadedFile, to: Format) -> Option<String> {
         // The expansion itself, as other readers of the robot receive it.
         (Format::Urdf, _) if matches!(loaded.language, FileFormat::Xacro | FileFormat::Urdf) => {
             loaded.document.as_ref().map(write_document)
+        }
+        (Format::Harmonic, _) => {
+            let message = "a conversion to Harmonic writes several files";
+            let finding = Diagnostic::error("several-files", message);
+            diagnostics
+                .push(finding.help("use `periplus convert FILE --to harmonic --out FOLDER`"));
+            None
         }
         (_, None) => {
             let told = format!("a {} file has no scene to convert", loaded.language.name());

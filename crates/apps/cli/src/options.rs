@@ -150,6 +150,15 @@ pub(crate) struct ConvertOptions {
     /// Output file
     #[arg(long, short, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
+    /// Output folder of `--to harmonic`: the new files, MIGRATION.md, migration.json and topics for ros_gz_bridge
+    #[arg(long, value_name = "FOLDER")]
+    pub(crate) out: Option<PathBuf>,
+    /// Convert to harmonic without simulating the old and the new files side by side
+    #[arg(long)]
+    pub(crate) no_compare: bool,
+    /// Print the report of `--to harmonic` as JSON
+    #[arg(long)]
+    pub(crate) json: bool,
     /// Pixel size of a floor plan [m]; dark pixels become walls
     #[arg(long, value_name = "METRES", value_parser = positive_metres)]
     pub(crate) resolution: Option<f64>,
@@ -188,6 +197,8 @@ pub(crate) enum Format {
     Sdf,
     /// Resolved scene as JSON
     Json,
+    /// Files of Gazebo Classic for Gazebo Harmonic, with a report and a comparison run
+    Harmonic,
 }
 
 /// Use of colours.

@@ -25,7 +25,7 @@ macro_rules! schemas {
 }
 
 /// Schemas by the words of the command, joined by `-`.
-static SCHEMAS: [(&str, &str); 59] = schemas![
+static SCHEMAS: [(&str, &str); 60] = schemas![
     "action-find",
     "action-info",
     "action-list",
@@ -37,6 +37,7 @@ static SCHEMAS: [(&str, &str); 59] = schemas![
     "check",
     "compare",
     "conformance",
+    "convert",
     "doctor",
     "interface-list",
     "interface-package",
