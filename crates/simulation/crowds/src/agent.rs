@@ -111,6 +111,8 @@ pub struct Agent {
     pub(crate) walked_m: f64,
     /// Velocity without others in this step \[m/s\].
     pub(crate) preferred: DVec2,
+    /// The same with regard to the people ahead \[m/s\].
+    pub(crate) adapted: DVec2,
     /// Point of the route to walk to.
     pub(crate) target: Option<DVec2>,
     /// Time without progress, which shrinks twice as fast as it grows \[s\].
@@ -132,6 +134,7 @@ impl Agent {
             state: AgentState::Standing,
             walked_m: 0.0,
             preferred: DVec2::ZERO,
+            adapted: DVec2::ZERO,
             target: None,
             blocked_s: 0.0,
             anchor: settings.position,

@@ -70,6 +70,8 @@ struct Party {
     phase: Phase,
     /// Number of goals that were chosen.
     visits: u64,
+    /// Time of the last choice \[s\].
+    chosen_at_s: f64,
 }
 
 /// Phase of a plan.
@@ -97,7 +99,8 @@ pub struct Crowd {
     steps: u64,
     index: AgentIndex,
     positions: Vec<DVec2>,
-    velocities: Vec<DVec2>,
+    /// Chosen and adapted preferred velocities of the step \[m/s\].
+    velocities: Vec<[DVec2; 2]>,
     scratch: Vec<Scratch>,
 }
 
@@ -187,7 +190,7 @@ impl Crowd {
         let first = self.agents.len();
         self.agents.extend(agents.iter().map(|agent| Agent::new(*agent, group)));
         let members = (first..self.agents.len()).collect();
-        self.parties.push(Party { members, plan, phase: Phase::Done, visits: 0 });
+        self.parties.push(Party { members, plan, phase: Phase::Done, visits: 0, chosen_at_s: 0.0 });
         self.start(group);
         Ok(GroupId(group))
     }
@@ -226,6 +229,12 @@ impl Crowd {
     pub fn group_of(&self, agent: AgentId) -> (GroupId, &[usize]) {
         let group = self.agents[agent.0].group;
         (GroupId(group), &self.parties[group].members)
+    }
+
+    /// Number of goals that an agent's plan has set out for.
+    #[must_use]
+    pub fn visits(&self, agent: AgentId) -> usize {
+        usize::try_from(self.parties[self.agents[agent.0].group].visits).unwrap_or(usize::MAX)
     }
 
     /// Simulated time since the start \[s\].
@@ -273,11 +282,11 @@ impl Crowd {
         let mut velocities = std::mem::take(&mut self.velocities);
         let mut scratch = std::mem::take(&mut self.scratch);
         velocities.clear();
-        velocities.resize(self.agents.len(), DVec2::ZERO);
+        velocities.resize(self.agents.len(), [DVec2::ZERO; 2]);
         let threads = scratch.len().min(self.agents.len() / MIN_AGENTS_PER_THREAD).max(1);
         let chunk = self.agents.len().div_ceil(threads).max(1);
         let this = &*self;
-        let work = |first: usize, velocities: &mut [DVec2], scratch: &mut Scratch| {
+        let work = |first: usize, velocities: &mut [[DVec2; 2]], scratch: &mut Scratch| {
             for (number, velocity) in velocities.iter_mut().enumerate() {
                 *velocity = this.velocity_of(first + number, step_s, scratch);
             }
@@ -300,11 +309,12 @@ impl Crowd {
     /// Moves the agents by their velocities and separates bodies that overlap.
     fn move_agents(&mut self, step_s: f64) {
         let before = std::mem::take(&mut self.positions);
-        for (agent, velocity) in self.agents.iter_mut().zip(&self.velocities) {
+        for (agent, [velocity, adapted]) in self.agents.iter_mut().zip(&self.velocities) {
             agent.position += *velocity * step_s;
+            agent.adapted = *adapted;
         }
         self.separate(&before);
-        for (agent, (before, velocity)) in
+        for (agent, (before, [velocity, _])) in
             self.agents.iter_mut().zip(before.iter().zip(&self.velocities))
         {
             let moved = agent.position - *before;

@@ -24,6 +24,10 @@ use glam::DVec2;
 /// Free speed of people and its standard deviation (Weidmann 1993) \[m/s\].
 const FREE_SPEED_M_PER_S: [f64; 2] = [1.34, 0.26];
 
+/// Free speed of the participants of the laboratory experiments, and its standard deviation (J. Zhang, W. Klingsch, A.
+/// Schadschneider, A. Seyfried, J. Stat. Mech. P06004, 2011) \[m/s\].
+const STUDENT_SPEED_M_PER_S: [f64; 2] = [1.55, 0.18];
+
 /// Walker at a position, with a free speed from a normal distribution within two standard deviations.
 fn walker(position: DVec2, [mean, deviation]: [f64; 2], seed: u64, number: u64) -> AgentSettings {
     let mut stream = Stream::keyed(seed, "experiment walker", number);

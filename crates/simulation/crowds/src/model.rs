@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use crate::headway::Headway;
 use crate::orca::{self, OrcaParams};
 use crate::perception::Perception;
 use crate::social_force::{self, SocialForceParams};
@@ -70,6 +71,20 @@ impl SteeringModel {
         }
     }
 
+    /// Distance that people keep to the one ahead.
+    fn headway(&self) -> Option<Headway> {
+        match self {
+            Self::SocialForce(params) => params.headway,
+            Self::Orca(params) => params.headway,
+        }
+    }
+
+    /// Returns the preferred velocity with regard to the people ahead \[m/s\].
+    pub(crate) fn adapt(&self, view: &Perception<'_>) -> DVec2 {
+        self.headway().map_or(view.preferred, |headway| headway.adapt(view, view.preferred))
+    }
+
+    /// Returns the velocity after a step, with the adapted preferred velocity in the view \[m/s\].
     pub(crate) fn steer(&self, view: &Perception<'_>) -> DVec2 {
         match self {
             Self::SocialForce(params) => params.steer(view),

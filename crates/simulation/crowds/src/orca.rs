@@ -28,7 +28,7 @@ const GROUP_TIME_S: f64 = 0.5;
 pub struct OrcaParams {
     /// Horizon within which no collision with others may occur (default 2 s) \[s\].
     pub time_horizon_s: f64,
-    /// Horizon for walls (default 0.3 s) \[s\].
+    /// Horizon for walls (default 0.15 s) \[s\].
     pub wall_time_horizon_s: f64,
     /// Range within which others are seen (default 5 m) \[m\].
     pub neighbour_range_m: f64,
@@ -42,7 +42,7 @@ impl Default for OrcaParams {
     fn default() -> Self {
         Self {
             time_horizon_s: 2.0,
-            wall_time_horizon_s: 0.3,
+            wall_time_horizon_s: 0.15,
             neighbour_range_m: 5.0,
             max_neighbours: 12,
             headway: Some(Headway::default()),
@@ -58,9 +58,6 @@ impl OrcaParams {
             let wanted = preferred.length();
             preferred += group_acceleration(group, preferred, view.velocity) * GROUP_TIME_S;
             preferred = preferred.clamp_length_max(wanted.max(0.5));
-        }
-        if let Some(headway) = self.headway {
-            preferred = headway.adapt(view, preferred);
         }
         let walls = view.walls.iter().map(|offset| self.wall(view, *offset, view.step_s));
         let mut planes: Vec<HalfPlane> = walls.collect();
@@ -178,10 +175,10 @@ mod tests {
 
     #[test]
     fn the_speed_towards_a_wall_is_the_distance_per_horizon() {
-        let walls = [DVec2::new(0.4, 0.0)];
+        let walls = [DVec2::new(0.34, 0.0)];
         let view = Perception { walls: &walls, ..view(DVec2::new(1.0, 0.2), &[]) };
         let found = OrcaParams::default().steer(&view);
-        // The body is 0.15 m from the wall; the horizon is 0.3 s.
-        assert!(found.distance(DVec2::new(0.5, 0.2)) < 1e-9, "{found}");
+        // The body is 0.09 m from the wall; the horizon is 0.15 s.
+        assert!(found.distance(DVec2::new(0.6, 0.2)) < 1e-9, "{found}");
     }
 }

@@ -22,7 +22,7 @@ const SIDESTEP_AFTER_S: f64 = 3.0;
 const SIDESTEP_S: f64 = 1.5;
 
 /// Time without progress after which those who wander choose another goal \[s\].
-const GIVE_UP_AFTER_S: f64 = 5.0;
+const GIVE_UP_AFTER_S: f64 = 4.0;
 
 /// A goal that others occupy counts as reached within this additional distance \[m\].
 const OCCUPIED_RANGE_M: f64 = 1.5;
@@ -68,6 +68,7 @@ impl Crowd {
             Plan::Stand | Plan::Direction(_) => None,
         };
         self.parties[group].visits += 1;
+        self.parties[group].chosen_at_s = self.time_s;
         for member in self.parties[group].members.clone() {
             self.agents[member].target = None;
             self.agents[member].blocked_s = 0.0;
@@ -154,7 +155,11 @@ impl Crowd {
     fn gives_up(&self, group: usize) -> bool {
         let party = &self.parties[group];
         party.plan == Plan::Wander
-            && party.members.iter().any(|member| self.agents[*member].blocked_s > GIVE_UP_AFTER_S)
+            && party.members.iter().any(|member| {
+                let agent = &self.agents[*member];
+                let tried_s = self.time_s - party.chosen_at_s;
+                agent.blocked_s.max(agent.still_s).min(tried_s) > GIVE_UP_AFTER_S
+            })
     }
 
     fn decide_agent(&mut self, number: usize, step_s: f64) {
@@ -250,7 +255,8 @@ impl Crowd {
         let draw = |name: &str, count: u64| {
             Stream::keyed(self.settings.seed, name, key(number, count)).unit()
         };
-        let blocked_s = self.agents[number].blocked_s;
+        let agent = &self.agents[number];
+        let blocked_s = agent.blocked_s.max(agent.still_s);
         if state != AgentState::Walking || blocked_s < SIDESTEP_AFTER_S {
             return SWAY_RAD * (2.0 * draw("crowd sway", second) - 1.0);
         }

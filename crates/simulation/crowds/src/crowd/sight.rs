@@ -8,6 +8,9 @@ use crate::perception::{GroupView, Neighbour, Perception};
 /// Walls beyond this distance have no influence \[m\].
 const WALL_RANGE_M: f64 = 1.5;
 
+/// Time between two looks at the people ahead; agents take turns \[s\].
+const DECISION_S: f64 = 0.05;
+
 /// Buffers of one thread.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Scratch {
@@ -18,8 +21,13 @@ pub(super) struct Scratch {
 }
 
 impl Crowd {
-    /// Velocity that an agent chooses \[m/s\].
-    pub(super) fn velocity_of(&self, number: usize, step_s: f64, scratch: &mut Scratch) -> DVec2 {
+    /// Velocity that an agent chooses, and its preferred velocity with regard to the people ahead \[m/s\].
+    pub(super) fn velocity_of(
+        &self,
+        number: usize,
+        step_s: f64,
+        scratch: &mut Scratch,
+    ) -> [DVec2; 2] {
         let agent = &self.agents[number];
         let Scratch { near, neighbours, wall_numbers, walls } = scratch;
         let range_m = self.settings.model.range_m();
@@ -81,7 +89,7 @@ impl Crowd {
             }
         }
         remove_hidden_walls(walls);
-        self.settings.model.steer(&Perception {
+        let mut view = Perception {
             velocity: agent.velocity,
             radius_m: agent.body_radius_m(),
             preferred: agent.preferred,
@@ -90,7 +98,15 @@ impl Crowd {
             walls,
             group: self.group_view(number),
             step_s,
-        })
+        };
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive")]
+        let decision_steps = (DECISION_S / step_s).round().max(1.0) as u64;
+        let is_turn = (self.steps + number as u64).is_multiple_of(decision_steps);
+        let is_new = (agent.adapted == DVec2::ZERO) != (agent.preferred == DVec2::ZERO);
+        let adapted =
+            if is_turn || is_new { self.settings.model.adapt(&view) } else { agent.adapted };
+        view.preferred = adapted;
+        [self.settings.model.steer(&view), adapted]
     }
 
     /// True where a wall or a closed door is in the line of sight.

@@ -7,7 +7,7 @@
 
 use glam::DVec2;
 
-use super::{FREE_SPEED_M_PER_S, walker};
+use super::{STUDENT_SPEED_M_PER_S, walker};
 use crate::agent::Plan;
 use crate::crowd::{Crowd, CrowdSettings, Goal};
 use crate::error::CrowdError;
@@ -86,7 +86,7 @@ pub fn bottleneck(
         let y = (column - (in_row as f64 - 1.0) / 2.0) * spacing_m;
         let position = DVec2::new(-3.0 - row * spacing_m, y);
         let plan = Plan::Visit { goals: goals.to_vec(), repeats: false };
-        crowd.add_agent(walker(position, FREE_SPEED_M_PER_S, seed, number as u64), plan)?;
+        crowd.add_agent(walker(position, STUDENT_SPEED_M_PER_S, seed, number as u64), plan)?;
     }
     let mut times_s = Vec::new();
     let mut has_passed = vec![false; people];

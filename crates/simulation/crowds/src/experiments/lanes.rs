@@ -12,7 +12,7 @@
 use glam::DVec2;
 use periplus_geometry::Stream;
 
-use super::{FREE_SPEED_M_PER_S, walker};
+use super::{STUDENT_SPEED_M_PER_S, walker};
 use crate::agent::Plan;
 use crate::crowd::{Crowd, CrowdSettings};
 use crate::error::CrowdError;
@@ -60,7 +60,7 @@ pub fn lanes(
     for (number, position) in mixed_places(density_per_m2, seed).into_iter().enumerate() {
         let direction = if number % 2 == 0 { DVec2::X } else { -DVec2::X };
         is_right.push(number % 2 == 0);
-        let settings = walker(position, FREE_SPEED_M_PER_S, seed, number as u64);
+        let settings = walker(position, STUDENT_SPEED_M_PER_S, seed, number as u64);
         crowd.add_agent(settings, Plan::Direction(direction))?;
     }
     let order_at_start = order(&crowd, &is_right);
