@@ -5,6 +5,8 @@
 //! ([`OrcaParams`]). Robots are given as [`MovingObstacle`]s before each step. The same settings and seed give the same
 //! bytes at any number of threads.
 //!
+//! [`ActorScript`] is the other kind of people: those that follow waypoints, whatever is in their way.
+//!
 //! ```
 //! use periplus_crowds::*;
 //!
@@ -38,6 +40,7 @@ mod obstacle;
 mod orca;
 mod perception;
 mod route;
+mod script;
 mod social_force;
 mod wall;
 
@@ -51,5 +54,6 @@ pub use headway::Headway;
 pub use model::SteeringModel;
 pub use obstacle::MovingObstacle;
 pub use orca::OrcaParams;
+pub use script::{ActorMotion, ActorScript, ActorTrajectory, Waypoint};
 pub use social_force::SocialForceParams;
 pub use wall::Wall;
