@@ -113,6 +113,8 @@ pub struct Agent {
     pub(crate) preferred: DVec2,
     /// The same with regard to the people ahead \[m/s\].
     pub(crate) adapted: DVec2,
+    /// True if somebody directly ahead comes towards the agent or does not avoid it.
+    pub(crate) is_opposed: bool,
     /// Point of the route to walk to.
     pub(crate) target: Option<DVec2>,
     /// Time without progress, which shrinks twice as fast as it grows \[s\].
@@ -135,6 +137,7 @@ impl Agent {
             walked_m: 0.0,
             preferred: DVec2::ZERO,
             adapted: DVec2::ZERO,
+            is_opposed: false,
             target: None,
             blocked_s: 0.0,
             anchor: settings.position,

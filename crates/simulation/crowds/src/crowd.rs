@@ -15,7 +15,7 @@ use crate::neighbours::AgentIndex;
 use crate::obstacle::MovingObstacle;
 use crate::route::Route;
 
-use self::sight::Scratch;
+use self::sight::{Choice, Scratch};
 
 /// Agents for which a thread pays.
 const MIN_AGENTS_PER_THREAD: usize = 32;
@@ -99,8 +99,8 @@ pub struct Crowd {
     steps: u64,
     index: AgentIndex,
     positions: Vec<DVec2>,
-    /// Chosen and adapted preferred velocities of the step \[m/s\].
-    velocities: Vec<[DVec2; 2]>,
+    /// Choices of all agents in this step.
+    choices: Vec<Choice>,
     scratch: Vec<Scratch>,
 }
 
@@ -120,7 +120,7 @@ impl Crowd {
             steps: 0,
             index: AgentIndex::default(),
             positions: Vec::new(),
-            velocities: Vec::new(),
+            choices: Vec::new(),
             scratch: vec![Scratch::default(); settings.threads.max(1)],
         }
     }
@@ -279,48 +279,49 @@ impl Crowd {
 
     /// Lets each agent choose its velocity from the same state, on all threads.
     fn choose_velocities(&mut self, step_s: f64) {
-        let mut velocities = std::mem::take(&mut self.velocities);
+        let mut choices = std::mem::take(&mut self.choices);
         let mut scratch = std::mem::take(&mut self.scratch);
-        velocities.clear();
-        velocities.resize(self.agents.len(), [DVec2::ZERO; 2]);
+        choices.clear();
+        choices.resize(self.agents.len(), Choice::default());
         let threads = scratch.len().min(self.agents.len() / MIN_AGENTS_PER_THREAD).max(1);
         let chunk = self.agents.len().div_ceil(threads).max(1);
         let this = &*self;
-        let work = |first: usize, velocities: &mut [[DVec2; 2]], scratch: &mut Scratch| {
-            for (number, velocity) in velocities.iter_mut().enumerate() {
-                *velocity = this.velocity_of(first + number, step_s, scratch);
+        let work = |first: usize, choices: &mut [Choice], scratch: &mut Scratch| {
+            for (number, choice) in choices.iter_mut().enumerate() {
+                *choice = this.velocity_of(first + number, step_s, scratch);
             }
         };
-        let mut parts = velocities.chunks_mut(chunk).zip(&mut scratch).enumerate();
+        let mut parts = choices.chunks_mut(chunk).zip(&mut scratch).enumerate();
         let own = parts.next();
         std::thread::scope(|scope| {
-            for (part, (velocities, scratch)) in parts {
+            for (part, (choices, scratch)) in parts {
                 let work = &work;
-                scope.spawn(move || work(part * chunk, velocities, scratch));
+                scope.spawn(move || work(part * chunk, choices, scratch));
             }
-            if let Some((_, (velocities, scratch))) = own {
-                work(0, velocities, scratch);
+            if let Some((_, (choices, scratch))) = own {
+                work(0, choices, scratch);
             }
         });
-        self.velocities = velocities;
+        self.choices = choices;
         self.scratch = scratch;
     }
 
     /// Moves the agents by their velocities and separates bodies that overlap.
     fn move_agents(&mut self, step_s: f64) {
         let before = std::mem::take(&mut self.positions);
-        for (agent, [velocity, adapted]) in self.agents.iter_mut().zip(&self.velocities) {
-            agent.position += *velocity * step_s;
-            agent.adapted = *adapted;
+        for (agent, choice) in self.agents.iter_mut().zip(&self.choices) {
+            agent.position += choice.velocity * step_s;
+            agent.adapted = choice.adapted;
+            agent.is_opposed = choice.is_opposed;
         }
         self.separate(&before);
-        for (agent, (before, [velocity, _])) in
-            self.agents.iter_mut().zip(before.iter().zip(&self.velocities))
+        for (agent, (before, choice)) in
+            self.agents.iter_mut().zip(before.iter().zip(&self.choices))
         {
             let moved = agent.position - *before;
             agent.walked_m += moved.length();
             // A push by a contact is not a walk: the velocity of the next step is at most the chosen one.
-            agent.velocity = (moved / step_s).clamp_length_max(velocity.length());
+            agent.velocity = (moved / step_s).clamp_length_max(choice.velocity.length());
             let speed = agent.velocity.length();
             if speed > HEADING_SPEED_M_PER_S {
                 agent.heading = agent.velocity / speed;

@@ -21,6 +21,15 @@ const SIDESTEP_AFTER_S: f64 = 3.0;
 /// Time for one try \[s\].
 const SIDESTEP_S: f64 = 1.5;
 
+/// Time without progress after which people who are opposed step back or squeeze through \[s\].
+pub(super) const DEADLOCK_AFTER_S: f64 = 5.0;
+
+/// Range of the angles of a try at the side, beyond half a radian \[rad\].
+const SIDESTEP_RAD: f64 = 1.0;
+
+/// The same in a deadlock: also backwards \[rad\].
+const STEP_BACK_RAD: f64 = 2.6;
+
 /// Time without progress after which those who wander choose another goal \[s\].
 const GIVE_UP_AFTER_S: f64 = 4.0;
 
@@ -262,7 +271,10 @@ impl Crowd {
         }
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "not negative")]
         let tries = (self.time_s / SIDESTEP_S) as u64;
-        let angle_rad = 0.5 + draw("crowd sidestep", 2 * tries);
+        // Among people who come towards it, an agent at last steps back and makes room.
+        let is_deadlock = agent.is_opposed && blocked_s > DEADLOCK_AFTER_S;
+        let range_rad = if is_deadlock { STEP_BACK_RAD } else { SIDESTEP_RAD };
+        let angle_rad = 0.5 + range_rad * draw("crowd sidestep", 2 * tries);
         if draw("crowd sidestep", 2 * tries + 1) < 0.6 { -angle_rad } else { angle_rad }
     }
 }

@@ -3,6 +3,7 @@
 use glam::DVec2;
 
 use super::Crowd;
+use super::behaviour::DEADLOCK_AFTER_S;
 use crate::perception::{GroupView, Neighbour, Perception};
 
 /// Walls beyond this distance have no influence \[m\].
@@ -10,6 +11,26 @@ const WALL_RANGE_M: f64 = 1.5;
 
 /// Time between two looks at the people ahead; agents take turns \[s\].
 const DECISION_S: f64 = 0.05;
+
+/// Speed of those who squeeze through, as a part of the preferred one.
+const SQUEEZE_SPEED_RATIO: f64 = 0.5;
+
+/// Distance of the bodies within which others oppose an agent \[m\].
+const OPPOSED_GAP_M: f64 = 0.3;
+
+/// Cosine of the headings below which others oppose an agent.
+const OPPOSED_COSINE: f64 = -0.3;
+
+/// Choice of an agent in a step.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Choice {
+    /// Velocity \[m/s\].
+    pub(super) velocity: DVec2,
+    /// Preferred velocity with regard to the people ahead \[m/s\].
+    pub(super) adapted: DVec2,
+    /// True if somebody directly ahead comes towards it or does not avoid it.
+    pub(super) is_opposed: bool,
+}
 
 /// Buffers of one thread.
 #[derive(Clone, Debug, Default)]
@@ -21,13 +42,8 @@ pub(super) struct Scratch {
 }
 
 impl Crowd {
-    /// Velocity that an agent chooses, and its preferred velocity with regard to the people ahead \[m/s\].
-    pub(super) fn velocity_of(
-        &self,
-        number: usize,
-        step_s: f64,
-        scratch: &mut Scratch,
-    ) -> [DVec2; 2] {
+    /// Lets an agent choose its velocity.
+    pub(super) fn velocity_of(&self, number: usize, step_s: f64, scratch: &mut Scratch) -> Choice {
         let agent = &self.agents[number];
         let Scratch { near, neighbours, wall_numbers, walls } = scratch;
         let range_m = self.settings.model.range_m();
@@ -103,10 +119,17 @@ impl Crowd {
         let decision_steps = (DECISION_S / step_s).round().max(1.0) as u64;
         let is_turn = (self.steps + number as u64).is_multiple_of(decision_steps);
         let is_new = (agent.adapted == DVec2::ZERO) != (agent.preferred == DVec2::ZERO);
-        let adapted =
-            if is_turn || is_new { self.settings.model.adapt(&view) } else { agent.adapted };
+        let is_opposed = is_opposed(&view);
+        let adapted = if is_opposed && agent.blocked_s.max(agent.still_s) > DEADLOCK_AFTER_S {
+            // In a deadlock people keep no distance any more, and squeeze through slowly.
+            agent.preferred * SQUEEZE_SPEED_RATIO
+        } else if is_turn || is_new {
+            self.settings.model.adapt(&view)
+        } else {
+            agent.adapted
+        };
         view.preferred = adapted;
-        [self.settings.model.steer(&view), adapted]
+        Choice { velocity: self.settings.model.steer(&view), adapted, is_opposed }
     }
 
     /// True where a wall or a closed door is in the line of sight.
@@ -134,6 +157,17 @@ impl Crowd {
         let to_others = (sum - agent.position) / (count - 1.0) - agent.position;
         Some(GroupView { to_centre, to_others, members: members.len() })
     }
+}
+
+/// True if somebody directly ahead will not go away by itself.
+fn is_opposed(view: &Perception<'_>) -> bool {
+    let ahead = view.preferred.normalize_or_zero();
+    view.neighbours.iter().any(|other| {
+        let gap_m = other.offset.length() - view.radius_m - other.radius_m;
+        let is_ahead = other.offset.dot(ahead) > 0.0;
+        let is_against = other.heading.dot(ahead) < OPPOSED_COSINE || other.share_ratio > 0.5;
+        gap_m < OPPOSED_GAP_M && is_ahead && is_against
+    })
 }
 
 /// Keeps the nearest of wall points that are almost the same, as those of two walls that meet in a corner are.
