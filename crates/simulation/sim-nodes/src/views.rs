@@ -15,11 +15,23 @@ pub struct Views {
     threads: usize,
     /// Models in the order of insertion.
     models: Vec<(ModelId, Arc<scene::Model>)>,
+    /// Models that only sensors know, such as people.
+    figures: Vec<Figure>,
     /// Lights and background colours.
     sky: Arc<scene::World>,
     collision: Option<SceneView>,
     visual: Option<SceneView>,
     findings: Diagnostics,
+}
+
+/// Model that sensors see and physics does not know, in the order of adding.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FigureId(usize);
+
+struct Figure {
+    model: Arc<scene::Model>,
+    /// Pose of each link.
+    world_from_links: Vec<Pose>,
 }
 
 /// Saved models and lights of [`Views`]; they are shared, not copied.
@@ -34,6 +46,8 @@ struct SceneView {
     scene: RenderScene,
     models: Vec<(ModelId, periplus_rendering::RenderModelId)>,
     links: Vec<(LinkId, PartId)>,
+    /// Links of each figure.
+    figures: Vec<Vec<PartId>>,
     /// Time of the last update of its links \[ns\]; `None` requires an update.
     updated_ns: Option<i64>,
     poses: Vec<(PartId, Pose)>,
@@ -47,6 +61,7 @@ impl Views {
             shapes,
             threads,
             models: Vec::new(),
+            figures: Vec::new(),
             sky: Arc::new(scene::World::empty("")),
             collision: None,
             visual: None,
@@ -116,6 +131,22 @@ impl Views {
         self.models.push((id, model));
     }
 
+    /// Adds a model that sensors see and physics does not know, with its links where the model has them.
+    pub fn add_figure(&mut self, model: Arc<scene::Model>) -> FigureId {
+        for view in [&mut self.collision, &mut self.visual].into_iter().flatten() {
+            view.add_figure(&model, &*self.shapes, &mut self.findings);
+        }
+        let links = model.links.iter().map(|link| model.parent_from_model * link.model_from_link);
+        self.figures.push(Figure { world_from_links: links.collect(), model });
+        FigureId(self.figures.len() - 1)
+    }
+
+    /// Sets the poses of the links of a figure, in their order in the model.
+    pub fn set_figure(&mut self, figure: FigureId, world_from_links: &[Pose]) {
+        self.figures[figure.0].world_from_links.copy_from_slice(world_from_links);
+        self.invalidate();
+    }
+
     /// Removes a model.
     pub fn remove(&mut self, id: ModelId, world: &PhysicsWorld) {
         self.models.retain(|(model, _)| *model != id);
@@ -168,7 +199,7 @@ impl Views {
             SensedGeometry::Visual => &mut self.visual,
         };
         let view = slot.get_or_insert_with(|| {
-            SceneView::new(
+            let mut view = SceneView::new(
                 geometry,
                 &self.sky,
                 &self.models,
@@ -176,9 +207,13 @@ impl Views {
                 &*self.shapes,
                 self.threads,
                 &mut self.findings,
-            )
+            );
+            for figure in &self.figures {
+                view.add_figure(&figure.model, &*self.shapes, &mut self.findings);
+            }
+            view
         });
-        view.update(time_ns, world);
+        view.update(time_ns, world, &self.figures);
         &mut view.scene
     }
 
@@ -226,10 +261,22 @@ impl SceneView {
         let models: Vec<_> = models.iter().map(|(id, _)| *id).zip(seen).collect();
         let links = models.iter().flat_map(|(id, seen)| world.links(*id).zip(scene.parts(*seen)));
         let links = links.collect();
-        Self { scene, models, links, updated_ns: None, poses: Vec::new() }
+        Self { scene, models, links, figures: Vec::new(), updated_ns: None, poses: Vec::new() }
     }
 
-    fn update(&mut self, time_ns: i64, world: &PhysicsWorld) {
+    fn add_figure(
+        &mut self,
+        model: &scene::Model,
+        shapes: &dyn AssetLoader,
+        findings: &mut Diagnostics,
+    ) {
+        let added = self.scene.add(model, model.parent_from_model, shapes);
+        findings.append(added.diagnostics);
+        self.figures.push(added.parts);
+        self.updated_ns = None;
+    }
+
+    fn update(&mut self, time_ns: i64, world: &PhysicsWorld, figures: &[Figure]) {
         if self.updated_ns == Some(time_ns) {
             return;
         }
@@ -240,6 +287,9 @@ impl SceneView {
                 .iter()
                 .filter_map(|(link, part)| Some((*part, world.link_state(*link)?.world_from_link))),
         );
+        for (parts, figure) in self.figures.iter().zip(figures) {
+            self.poses.extend(parts.iter().copied().zip(figure.world_from_links.iter().copied()));
+        }
         self.scene.set_link_poses(&self.poses);
     }
 }

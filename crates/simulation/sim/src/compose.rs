@@ -197,6 +197,8 @@ fn compose_loaded(
     for model in std::mem::take(&mut world.models) {
         add(model, Placed::default(), file_of_world, &mut members);
     }
+    // A file with an actor alone is placed on the plane too.
+    world.actors.append(&mut scene.actors);
     for model in std::mem::take(&mut scene.models) {
         let is_robot = description.is_some();
         let description = description.clone();

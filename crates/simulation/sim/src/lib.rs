@@ -25,6 +25,7 @@
 //! # Ok::<(), periplus_sim::Diverged>(())
 //! ```
 
+mod actors;
 mod arrival;
 mod compose;
 mod compute_topics;

@@ -22,6 +22,7 @@ use periplus_sim_nodes::{
     Device, DeviceContext, ParameterFiles, SenseContext, SensorMount, StepInterval, Views,
 };
 
+use crate::actors::RunningActor;
 use crate::compose::{Composition, ModelInstance};
 use crate::files::AssetFiles;
 use crate::profile::{Work, WorkProfile};
@@ -108,6 +109,8 @@ pub struct Simulation {
     pub(crate) running: Vec<RunningModel>,
     world_devices: Vec<Box<dyn Device>>,
     pub(crate) views: Views,
+    /// Actors of the world, which move by their scripts.
+    actors: Vec<RunningActor>,
     files: Arc<AssetFiles>,
     options: Options,
     /// True if the seed has changed since the devices were created.
@@ -164,6 +167,7 @@ impl Simulation {
             scene: Arc::new(scene),
             motion,
             views,
+            actors: Vec::new(),
             files,
             options,
         };
@@ -177,6 +181,10 @@ impl Simulation {
         let devices =
             periplus_sim_nodes::world_devices(&simulation.graph, &simulation.scene, &mut of_world);
         simulation.world_devices.extend(devices);
+        for actor in &simulation.scene.actors {
+            simulation.actors.push(RunningActor::new(actor, &mut simulation.views, &mut of_world));
+        }
+        simulation.place_actors();
         // Plugins of a world file are in the first file; the default plane has none.
         composition.files[0].diagnostics.append(of_world);
         for member in composition.members.clone() {
@@ -408,6 +416,7 @@ impl Simulation {
     pub fn reset(&mut self) {
         self.time_ns = 0;
         self.graph.jump_to(0);
+        self.place_actors();
         self.reset_models();
     }
 
@@ -462,6 +471,7 @@ impl Simulation {
         self.shares.lap(Work::Physics, &mut stopwatch);
         self.graph.advance_to(self.time_ns);
         self.shares.lap(Work::Messages, &mut stopwatch);
+        self.place_actors();
         let mut moment = SenseContext {
             span,
             world: &self.motion,
@@ -497,6 +507,19 @@ impl Simulation {
             let mounts = running.devices.iter().flat_map(|device| device.mounts());
             mounts.map(move |mount| (name, mount))
         })
+    }
+
+    /// Moves the actors to their poses at the current time.
+    fn place_actors(&mut self) {
+        for actor in &self.actors {
+            actor.place(self.time_ns, &mut self.views);
+        }
+    }
+
+    /// Returns the names of the actors of the world with their poses, which are those of their scripts at the current
+    /// time.
+    pub fn actors(&self) -> impl Iterator<Item = (&str, Pose)> {
+        self.actors.iter().map(|actor| (actor.name(), actor.world_from_actor(self.time_ns)))
     }
 
     /// Removes a model whose motion diverged; the rest continues.

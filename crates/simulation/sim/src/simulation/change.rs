@@ -31,6 +31,7 @@ impl Simulation {
     pub(crate) fn reset_time(&mut self) {
         self.time_ns = 0;
         self.graph.jump_to(0);
+        self.place_actors();
         self.views.invalidate();
         self.restart_devices();
     }

@@ -147,6 +147,7 @@ impl Simulation {
         self.requested_poses.clone_from(&snapshot.requested_poses);
         self.diverged.clone_from(&snapshot.diverged);
         self.views.restore(&snapshot.views);
+        self.place_actors();
         self.restore_models(&snapshot.models);
         // The devices of the world are built once.
         restored(&mut self.world_devices, &snapshot.world_devices);
