@@ -80,10 +80,8 @@ fn add(link: &mut Link, name: &str, shape: Shape, height_m: f64, [red, green, bl
     let pose = Pose::from_xyz(0.0, 0.0, height_m);
     let colour = Some(Colour([red, green, blue, 1.0]));
     let material = Material { ambient: colour, diffuse: colour, ..Material::default() };
-    link.collisions.push(Collision {
-        link_from_collision: pose,
-        ..Collision::new(name, shape.clone())
-    });
+    link.collisions
+        .push(Collision { link_from_collision: pose, ..Collision::new(name, shape.clone()) });
     link.visuals.push(Visual {
         link_from_visual: pose,
         material: Some(material),
