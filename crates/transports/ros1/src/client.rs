@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use crate::rpc::{self, RpcError};
 use crate::tcpros::{ServiceConnection, ServiceEnd};
-use crate::xmlrpc::{Call, Value};
+use crate::xmlrpc::{RpcCall, XmlRpcValue};
 
 /// Timeout of a call to the master.
 const PATIENCE: Duration = Duration::from_secs(3);
@@ -50,7 +50,7 @@ impl MasterClient {
     ///
     /// # Errors
     /// When the master does not answer or refuses.
-    pub fn ask(&self, method: &str, params: Vec<Value>) -> Result<Value, RpcError> {
+    pub fn ask(&self, method: &str, params: Vec<XmlRpcValue>) -> Result<XmlRpcValue, RpcError> {
         let mut all = vec![self.caller.as_str().into()];
         all.extend(params);
         rpc::ask(&self.uri, method, all, PATIENCE)
@@ -92,7 +92,7 @@ impl MasterClient {
     ///
     /// # Errors
     /// As [`MasterClient::ask`].
-    pub fn set_parameter(&self, key: &str, value: Value) -> Result<(), RpcError> {
+    pub fn set_parameter(&self, key: &str, value: XmlRpcValue) -> Result<(), RpcError> {
         self.ask("setParam", vec![key.into(), value]).map(drop)
     }
 
@@ -100,18 +100,18 @@ impl MasterClient {
     ///
     /// # Errors
     /// As [`MasterClient::ask`].
-    pub fn set_parameters(&self, parameters: Vec<(String, Value)>) -> Result<(), RpcError> {
+    pub fn set_parameters(&self, parameters: Vec<(String, XmlRpcValue)>) -> Result<(), RpcError> {
         if parameters.is_empty() {
             return Ok(());
         }
         let calls = parameters.into_iter().map(|(key, value)| {
-            let params = Value::List(vec![self.caller.as_str().into(), key.into(), value]);
+            let params = XmlRpcValue::List(vec![self.caller.as_str().into(), key.into(), value]);
             let members =
                 [("methodName".to_owned(), "setParam".into()), ("params".to_owned(), params)];
-            Value::Struct(members.into())
+            XmlRpcValue::Struct(members.into())
         });
-        let params = vec![Value::List(calls.collect())];
-        let call = Call { method: "system.multicall".to_owned(), params };
+        let params = vec![XmlRpcValue::List(calls.collect())];
+        let call = RpcCall { method: "system.multicall".to_owned(), params };
         rpc::call(&self.uri, &call, PATIENCE).map(drop)
     }
 
@@ -123,10 +123,10 @@ impl MasterClient {
         let state = self.ask("getSystemState", Vec::new())?;
         let types = self.ask("getTopicTypes", Vec::new())?;
         let part = |index: usize| {
-            let rows = state.list().and_then(|parts| parts.get(index)).and_then(Value::list);
+            let rows = state.list().and_then(|parts| parts.get(index)).and_then(XmlRpcValue::list);
             let rows = rows.unwrap_or_default().iter().filter_map(|row| match row.list()? {
                 [name, nodes] => {
-                    let nodes = nodes.list()?.iter().filter_map(Value::text);
+                    let nodes = nodes.list()?.iter().filter_map(XmlRpcValue::text);
                     Some((name.text()?.to_owned(), nodes.map(str::to_owned).collect()))
                 }
                 _ => None,

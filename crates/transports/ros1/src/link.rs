@@ -18,7 +18,7 @@ use crate::node::{NodePort, Place};
 use crate::outgoing::Lane;
 use crate::rpc::RpcError;
 use crate::wire::Shared;
-use crate::xmlrpc::Value;
+use crate::xmlrpc::XmlRpcValue;
 
 use parameters::Parameters;
 use services::Services;
@@ -77,7 +77,7 @@ impl Net {
     }
 
     /// Registers or unregisters in the name of a node.
-    fn tell_master(&self, method: &str, params: Vec<Value>) -> Option<Value> {
+    fn tell_master(&self, method: &str, params: Vec<XmlRpcValue>) -> Option<XmlRpcValue> {
         let result = crate::rpc::ask(self.client.uri(), method, params, Duration::from_secs(3));
         result.map_err(|error| self.lost(&error)).ok()
     }
@@ -210,7 +210,7 @@ fn port<'a>(net: &Net, ports: &'a mut Ports, node: &str) -> Option<&'a NodePort>
 }
 
 /// Addresses in a result of the master.
-fn addresses(value: &Value) -> BTreeSet<String> {
+fn addresses(value: &XmlRpcValue) -> BTreeSet<String> {
     let list = value.list().unwrap_or_default().iter();
-    list.filter_map(Value::text).map(str::to_owned).collect()
+    list.filter_map(XmlRpcValue::text).map(str::to_owned).collect()
 }

@@ -12,7 +12,7 @@ use crate::error::Ros1Error;
 use crate::master::process_id;
 use crate::server::{Handler, Server};
 use crate::tcpros::{Header, Publication, Serving, SourceReport, read_header_after};
-use crate::xmlrpc::{Call, Fault, Value};
+use crate::xmlrpc::{RpcCall, RpcFault, XmlRpcValue};
 
 /// A subscribed topic with its connections, for reports.
 pub(crate) struct SubscriptionReport {
@@ -128,11 +128,11 @@ impl Drop for NodePort {
 }
 
 impl Handler for NodeApi {
-    fn call(&self, call: Call) -> Result<Value, Fault> {
-        let texts: Vec<&str> = call.params.iter().map_while(Value::text).collect();
-        let done = |value: Value| Ok(Value::List(vec![Value::Int(1), "".into(), value]));
+    fn call(&self, call: RpcCall) -> Result<XmlRpcValue, RpcFault> {
+        let texts: Vec<&str> = call.params.iter().map_while(XmlRpcValue::text).collect();
+        let done = |value: XmlRpcValue| Ok(XmlRpcValue::List(vec![XmlRpcValue::Int(1), "".into(), value]));
         let wrong =
-            |text: String| Ok(Value::List(vec![Value::Int(-1), text.into(), Value::Int(0)]));
+            |text: String| Ok(XmlRpcValue::List(vec![XmlRpcValue::Int(-1), text.into(), XmlRpcValue::Int(0)]));
         match (call.method.as_str(), texts.as_slice()) {
             ("getPid", _) => done(process_id().into()),
             ("getMasterUri", _) => done(self.master_uri.clone().into()),
@@ -142,12 +142,12 @@ impl Handler for NodeApi {
                 let publications = lock(&self.publications);
                 let pairs = publications.values();
                 let pairs = pairs.map(|one| vec![one.topic.clone(), one.of.name.clone()].into());
-                done(Value::List(pairs.collect()))
+                done(XmlRpcValue::List(pairs.collect()))
             }
             ("getSubscriptions", _) => {
                 let all = self.events.subscriptions(&self.name).into_iter();
                 let pairs = all.map(|one| vec![one.topic, one.of].into());
-                done(Value::List(pairs.collect()))
+                done(XmlRpcValue::List(pairs.collect()))
             }
             ("shutdown", &[caller, ..]) => {
                 let why = texts.get(1).copied().unwrap_or_default();
@@ -156,20 +156,20 @@ impl Handler for NodeApi {
                 wrong(format!("{} ends with its program", self.name))
             }
             // Nodes of ROS 1 read parameters when they start.
-            ("paramUpdate", _) => done(Value::Int(0)),
+            ("paramUpdate", _) => done(XmlRpcValue::Int(0)),
             ("publisherUpdate", &[_, topic]) => {
-                let Some(publishers) = call.params.get(2).and_then(Value::list) else {
+                let Some(publishers) = call.params.get(2).and_then(XmlRpcValue::list) else {
                     return wrong("publisherUpdate takes a list of addresses".into());
                 };
-                let publishers = publishers.iter().filter_map(Value::text).map(str::to_owned);
+                let publishers = publishers.iter().filter_map(XmlRpcValue::text).map(str::to_owned);
                 self.events.publishers(topic, publishers.collect());
-                done(Value::Int(0))
+                done(XmlRpcValue::Int(0))
             }
             ("requestTopic", &[_, topic]) => self.request_topic(topic, call.params.get(2)),
             (method, _) => {
                 let text =
                     format!("method `{method}` is not supported, or its parameters are wrong");
-                Err(Fault { code: -1, text })
+                Err(RpcFault { code: -1, text })
             }
         }
     }
@@ -186,23 +186,23 @@ impl NodeApi {
         self.port.get().copied().unwrap_or_default()
     }
 
-    fn request_topic(&self, topic: &str, protocols: Option<&Value>) -> Result<Value, Fault> {
+    fn request_topic(&self, topic: &str, protocols: Option<&XmlRpcValue>) -> Result<XmlRpcValue, RpcFault> {
         let answer =
-            |code, text: String, value| Ok(Value::List(vec![Value::Int(code), text.into(), value]));
+            |code, text: String, value| Ok(XmlRpcValue::List(vec![XmlRpcValue::Int(code), text.into(), value]));
         if !lock(&self.publications).contains_key(topic) {
             let text = format!("{} does not publish [{topic}]", self.name);
-            return answer(0, text, Value::Int(0));
+            return answer(0, text, XmlRpcValue::Int(0));
         }
-        let offered = protocols.and_then(Value::list).unwrap_or_default();
+        let offered = protocols.and_then(XmlRpcValue::list).unwrap_or_default();
         let names = offered.iter().filter_map(|one| one.list()?.first()?.text());
         let names: Vec<&str> = names.collect();
         if !names.contains(&"TCPROS") {
             let text = format!("{} is not supported; TCPROS is", names.join(", "));
-            return answer(0, text, Value::List(Vec::new()));
+            return answer(0, text, XmlRpcValue::List(Vec::new()));
         }
         let host = self.host.trim_matches(['[', ']']);
-        let place = vec!["TCPROS".into(), host.into(), Value::Int(self.port().into())];
-        answer(1, format!("ready on {host}:{}", self.port()), Value::List(place))
+        let place = vec!["TCPROS".into(), host.into(), XmlRpcValue::Int(self.port().into())];
+        answer(1, format!("ready on {host}:{}", self.port()), XmlRpcValue::List(place))
     }
 
     fn connect_with(&self, header: &Header, stream: TcpStream) -> std::io::Result<()> {
@@ -223,16 +223,16 @@ impl NodeApi {
     }
 
     /// Connections: `[id, peer, direction, protocol, topic, is connected, text]`.
-    fn bus_info(&self) -> Value {
+    fn bus_info(&self) -> XmlRpcValue {
         let mut all = Vec::new();
         let row = |id: i32, peer: String, way: &str, topic: &str| {
-            Value::List(vec![
-                Value::Int(id),
+            XmlRpcValue::List(vec![
+                XmlRpcValue::Int(id),
                 peer.into(),
                 way.into(),
                 "TCPROS".into(),
                 topic.into(),
-                Value::Bool(true),
+                XmlRpcValue::Bool(true),
                 format!("TCPROS connection on port {}", self.port()).into(),
             ])
         };
@@ -246,43 +246,43 @@ impl NodeApi {
                 all.push(row(id, source.publisher, "i", &subscription.topic));
             }
         }
-        Value::List(all)
+        XmlRpcValue::List(all)
     }
 
     /// Counts of topics sent, topics received, and services.
-    fn bus_stats(&self) -> Value {
-        let count = |number: u64| Value::Int(i32::try_from(number).unwrap_or(i32::MAX));
+    fn bus_stats(&self) -> XmlRpcValue {
+        let count = |number: u64| XmlRpcValue::Int(i32::try_from(number).unwrap_or(i32::MAX));
         let mut sent = Vec::new();
         for publication in lock(&self.publications).values() {
             let (bytes, links) = publication.report();
             let links = links.iter().map(|link| {
                 let row = vec![
-                    Value::Int(link.id),
+                    XmlRpcValue::Int(link.id),
                     count(link.sent_bytes),
                     count(link.sent),
-                    Value::Bool(true),
+                    XmlRpcValue::Bool(true),
                 ];
-                Value::List(row)
+                XmlRpcValue::List(row)
             });
-            let links = Value::List(links.collect());
-            sent.push(Value::List(vec![publication.topic.clone().into(), count(bytes), links]));
+            let links = XmlRpcValue::List(links.collect());
+            sent.push(XmlRpcValue::List(vec![publication.topic.clone().into(), count(bytes), links]));
         }
         let mut received = Vec::new();
         for subscription in self.events.subscriptions(&self.name) {
             let links = (0..).zip(&subscription.sources).map(|(id, source)| {
-                Value::List(vec![
-                    Value::Int(id),
+                XmlRpcValue::List(vec![
+                    XmlRpcValue::Int(id),
                     count(source.received_bytes),
                     count(source.received),
-                    Value::Int(-1),
-                    Value::Bool(true),
+                    XmlRpcValue::Int(-1),
+                    XmlRpcValue::Bool(true),
                 ])
             });
             received
-                .push(Value::List(vec![subscription.topic.into(), Value::List(links.collect())]));
+                .push(XmlRpcValue::List(vec![subscription.topic.into(), XmlRpcValue::List(links.collect())]));
         }
-        let services = Value::List(vec![Value::Int(0), Value::Int(0), Value::Int(0)]);
-        Value::List(vec![Value::List(sent), Value::List(received), services])
+        let services = XmlRpcValue::List(vec![XmlRpcValue::Int(0), XmlRpcValue::Int(0), XmlRpcValue::Int(0)]);
+        XmlRpcValue::List(vec![XmlRpcValue::List(sent), XmlRpcValue::List(received), services])
     }
 }
 

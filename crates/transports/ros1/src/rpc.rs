@@ -5,7 +5,7 @@ use std::io::{BufReader, Write as _};
 use std::net::{TcpStream, ToSocketAddrs as _};
 use std::time::Duration;
 
-use crate::xmlrpc::{self, Call, Value};
+use crate::xmlrpc::{self, RpcCall, XmlRpcValue};
 
 /// A call that brought no result.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -57,7 +57,7 @@ pub(crate) fn connect(host: &str, port: u16, timeout: Duration) -> std::io::Resu
 ///
 /// # Errors
 /// When nobody answers within the timeout, or the answer is a fault.
-pub fn call(uri: &str, call: &Call, timeout: Duration) -> Result<Value, RpcError> {
+pub fn call(uri: &str, call: &RpcCall, timeout: Duration) -> Result<XmlRpcValue, RpcError> {
     let unreachable =
         |error: &dyn fmt::Display| RpcError::Unreachable(format!("{uri} does not answer: {error}"));
     let malformed = |error: &dyn fmt::Display| RpcError::Malformed(format!("{uri}: {error}"));
@@ -98,18 +98,18 @@ pub fn call(uri: &str, call: &Call, timeout: Duration) -> Result<Value, RpcError
 pub fn ask(
     uri: &str,
     method: &str,
-    params: Vec<Value>,
+    params: Vec<XmlRpcValue>,
     timeout: Duration,
-) -> Result<Value, RpcError> {
-    let request = Call { method: method.to_owned(), params };
+) -> Result<XmlRpcValue, RpcError> {
+    let request = RpcCall { method: method.to_owned(), params };
     let result = call(uri, &request, timeout)?;
-    let Value::List(parts) = result else {
+    let XmlRpcValue::List(parts) = result else {
         return Err(RpcError::Malformed(format!("{uri}: {method} returned {}", result.kind())));
     };
     let mut parts = parts.into_iter();
     match (parts.next(), parts.next(), parts.next()) {
-        (Some(Value::Int(1)), _, Some(value)) => Ok(value),
-        (Some(Value::Int(_)), Some(Value::Text(text)), _) => Err(RpcError::Refused(text)),
+        (Some(XmlRpcValue::Int(1)), _, Some(value)) => Ok(value),
+        (Some(XmlRpcValue::Int(_)), Some(XmlRpcValue::Text(text)), _) => Err(RpcError::Refused(text)),
         _ => Err(RpcError::Malformed(format!("{uri}: the result of {method} has no code"))),
     }
 }

@@ -13,7 +13,7 @@ use std::time::Duration;
 
 use periplus_transport::lock;
 
-use crate::xmlrpc::{self, Call, Fault, Value};
+use crate::xmlrpc::{self, RpcCall, RpcFault, XmlRpcValue};
 
 /// Maximum number of connections to one port.
 const MAX_CONNECTIONS: usize = 512;
@@ -24,7 +24,7 @@ const IDLE: Duration = Duration::from_secs(60);
 /// Serves the connections of a port.
 pub(crate) trait Handler: Send + Sync + 'static {
     /// Answers a request.
-    fn call(&self, call: Call) -> Result<Value, Fault>;
+    fn call(&self, call: RpcCall) -> Result<XmlRpcValue, RpcFault>;
 
     /// Serves a TCPROS connection until it ends. `front` has its first four bytes.
     fn connect(&self, front: [u8; 4], stream: TcpStream);
@@ -152,7 +152,7 @@ fn serve_calls(front: [u8; 4], stream: &TcpStream, handler: &dyn Handler) -> io:
                 Ok(value) => xmlrpc::write_response(&value),
                 Err(fault) => xmlrpc::write_fault(&fault),
             },
-            Err(error) => xmlrpc::write_fault(&Fault { code: -1, text: error.to_string() }),
+            Err(error) => xmlrpc::write_fault(&RpcFault { code: -1, text: error.to_string() }),
         };
         let connection = if head.keeps_open { "keep-alive" } else { "close" };
         let mut bytes = format!(
@@ -169,37 +169,37 @@ fn serve_calls(front: [u8; 4], stream: &TcpStream, handler: &dyn Handler) -> io:
 }
 
 /// Answers a request; `system.multicall` has several in one, as `roslaunch` sends them.
-fn answer(call: Call, handler: &dyn Handler) -> Result<Value, Fault> {
+fn answer(call: RpcCall, handler: &dyn Handler) -> Result<XmlRpcValue, RpcFault> {
     if call.method != "system.multicall" {
         return handler.call(call);
     }
-    let Some(Value::List(calls)) = call.params.into_iter().next() else {
-        return Err(Fault { code: -1, text: "system.multicall takes a list of calls".into() });
+    let Some(XmlRpcValue::List(calls)) = call.params.into_iter().next() else {
+        return Err(RpcFault { code: -1, text: "system.multicall takes a list of calls".into() });
     };
     let results = calls.into_iter().map(|one| {
         let result = match single(one) {
             Some(call) if call.method != "system.multicall" => handler.call(call),
-            _ => Err(Fault { code: -1, text: "a call has a methodName and params".into() }),
+            _ => Err(RpcFault { code: -1, text: "a call has a methodName and params".into() }),
         };
         match result {
-            Ok(value) => Value::List(vec![value]),
-            Err(fault) => Value::Struct(
+            Ok(value) => XmlRpcValue::List(vec![value]),
+            Err(fault) => XmlRpcValue::Struct(
                 [
-                    ("faultCode".to_owned(), Value::Int(fault.code)),
-                    ("faultString".to_owned(), Value::Text(fault.text)),
+                    ("faultCode".to_owned(), XmlRpcValue::Int(fault.code)),
+                    ("faultString".to_owned(), XmlRpcValue::Text(fault.text)),
                 ]
                 .into(),
             ),
         }
     });
-    Ok(Value::List(results.collect()))
+    Ok(XmlRpcValue::List(results.collect()))
 }
 
-fn single(value: Value) -> Option<Call> {
-    let Value::Struct(mut members) = value else { return None };
-    let Some(Value::Text(method)) = members.remove("methodName") else { return None };
-    let Some(Value::List(params)) = members.remove("params") else { return None };
-    Some(Call { method, params })
+fn single(value: XmlRpcValue) -> Option<RpcCall> {
+    let XmlRpcValue::Struct(mut members) = value else { return None };
+    let Some(XmlRpcValue::Text(method)) = members.remove("methodName") else { return None };
+    let Some(XmlRpcValue::List(params)) = members.remove("params") else { return None };
+    Some(RpcCall { method, params })
 }
 
 fn refuse(stream: &TcpStream, status: &str, why: &str) -> io::Result<()> {

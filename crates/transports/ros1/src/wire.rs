@@ -19,7 +19,7 @@ use crate::outgoing::Lane;
 use crate::rpc::RpcError;
 use crate::settings::{Settings, is_own};
 use crate::tcpros::Publication;
-use crate::xmlrpc::Value;
+use crate::xmlrpc::XmlRpcValue;
 
 /// Polling period of [`Ros1Transport::flush`].
 const LOOK_AGAIN: Duration = Duration::from_millis(5);
@@ -190,7 +190,7 @@ impl Ros1Transport {
     ///
     /// # Errors
     /// When the master does not answer.
-    pub fn set_parameters(&self, parameters: Vec<(String, Value)>) -> Result<(), Ros1Error> {
+    pub fn set_parameters(&self, parameters: Vec<(String, XmlRpcValue)>) -> Result<(), Ros1Error> {
         self.client
             .set_parameters(parameters)
             .map_err(|why| Ros1Error::Master { uri: self.client.uri().to_owned(), why })

@@ -10,21 +10,21 @@ mod write;
 
 pub(crate) use http::{HttpError, read_body, read_head};
 pub use read::{MalformedXmlRpc, read_call, read_response};
-pub use value::Value;
+pub use value::XmlRpcValue;
 pub use write::{write_call, write_fault, write_response};
 
 /// A request.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Call {
+pub struct RpcCall {
     /// Name of the method, such as `registerPublisher`.
     pub method: String,
     /// Its parameters.
-    pub params: Vec<Value>,
+    pub params: Vec<XmlRpcValue>,
 }
 
 /// A refused request.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Fault {
+pub struct RpcFault {
     /// Number of the error.
     pub code: i32,
     /// Its text.

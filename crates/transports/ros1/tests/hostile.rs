@@ -9,7 +9,7 @@ use periplus_graph::{Graph, NodeSettings, Publisher, Qos};
 use periplus_msgs::std_msgs;
 use periplus_os::{Stopwatch, sleep};
 use periplus_ros1::{
-    Header, Master, MasterClient, MasterUse, Ros1Transport, RpcError, Settings, Value, ask,
+    Header, Master, MasterClient, MasterUse, Ros1Transport, RpcError, Settings, XmlRpcValue, ask,
     message_definition,
 };
 
@@ -58,15 +58,15 @@ impl Talker {
     }
 
     /// Port that `requestTopic` names.
-    fn port(&self, protocol: &str) -> Result<Value, RpcError> {
-        let protocols = Value::List(vec![Value::List(vec![protocol.into()])]);
+    fn port(&self, protocol: &str) -> Result<XmlRpcValue, RpcError> {
+        let protocols = XmlRpcValue::List(vec![XmlRpcValue::List(vec![protocol.into()])]);
         let params = vec!["/test".into(), "/chatter".into(), protocols];
         ask(&self.uri, "requestTopic", params, PATIENCE)
     }
 
     fn connect(&self) -> TcpStream {
-        let Ok(Value::List(place)) = self.port("TCPROS") else { panic!("no place") };
-        let Some(Value::Int(port)) = place.get(2) else { panic!("no port") };
+        let Ok(XmlRpcValue::List(place)) = self.port("TCPROS") else { panic!("no place") };
+        let Some(XmlRpcValue::Int(port)) = place.get(2) else { panic!("no port") };
         let stream = TcpStream::connect(("127.0.0.1", u16::try_from(*port).expect("a port")));
         let stream = stream.expect("a connection");
         stream.set_read_timeout(Some(PATIENCE)).expect("a timeout");
@@ -204,9 +204,9 @@ fn a_publisher_that_lies_about_lengths_is_left() {
             let mut request = [0; 4096];
             let _ = (&stream).read(&mut request);
             let place =
-                Value::List(vec!["TCPROS".into(), "127.0.0.1".into(), Value::Int(port.into())]);
+                XmlRpcValue::List(vec!["TCPROS".into(), "127.0.0.1".into(), XmlRpcValue::Int(port.into())]);
             let body =
-                periplus_ros1::write_response(&Value::List(vec![Value::Int(1), "".into(), place]));
+                periplus_ros1::write_response(&XmlRpcValue::List(vec![XmlRpcValue::Int(1), "".into(), place]));
             let head = format!("HTTP/1.1 200 OK\r\nContent-Length: {}\r\n\r\n", body.len());
             let _ = (&stream).write_all(format!("{head}{body}").as_bytes());
         }
@@ -228,7 +228,7 @@ fn a_publisher_that_lies_about_lengths_is_left() {
             counted.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
         }
     });
-    let params = ["/liar", "/lies", "std_msgs/String", &uri].map(Value::from);
+    let params = ["/liar", "/lies", "std_msgs/String", &uri].map(XmlRpcValue::from);
     ask(&settings.master_uri, "registerPublisher", params.into(), PATIENCE).expect("registered");
     let graph = Graph::live();
     let wire = Ros1Transport::open(&settings, MasterUse::Join).expect("a master");

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Subcommand;
-use periplus_ros1::{MasterClient, RpcError, Value};
+use periplus_ros1::{MasterClient, RpcError, XmlRpcValue};
 
 use super::{client, failed, yaml};
 use crate::error::CliError;
@@ -28,7 +28,7 @@ pub(crate) enum ParamCommand {
     Set {
         /// Name
         name: String,
-        /// Value as YAML
+        /// XmlRpcValue as YAML
         #[arg(required_unless_present = "textfile", allow_negative_numbers = true)]
         value: Option<String>,
         /// File whose text is the value
@@ -60,7 +60,7 @@ pub(crate) enum ParamCommand {
 
 pub(super) fn run(command: &ParamCommand) -> Result<ExitCode, CliError> {
     let client = client()?;
-    let ask = |method: &str, params: Vec<Value>| {
+    let ask = |method: &str, params: Vec<XmlRpcValue>| {
         client.ask(method, params).map_err(|error| failed(&client, error))
     };
     let mut out = io::stdout().lock();
@@ -68,7 +68,7 @@ pub(super) fn run(command: &ParamCommand) -> Result<ExitCode, CliError> {
         ParamCommand::List { namespace } => {
             let names = ask("getParamNames", Vec::new())?;
             let mut names: Vec<&str> =
-                names.list().unwrap_or_default().iter().filter_map(Value::text).collect();
+                names.list().unwrap_or_default().iter().filter_map(XmlRpcValue::text).collect();
             names.sort_unstable();
             let front = format!("{}/", full(namespace).trim_end_matches('/'));
             for name in names.iter().filter(|name| name.starts_with(&front)) {
@@ -81,7 +81,7 @@ pub(super) fn run(command: &ParamCommand) -> Result<ExitCode, CliError> {
         }
         ParamCommand::Set { name, value, textfile } => {
             let value = match (value, textfile) {
-                (_, Some(file)) => Value::Text(read(file)?),
+                (_, Some(file)) => XmlRpcValue::Text(read(file)?),
                 (Some(value), None) => yaml::read("VALUE", value)?,
                 (None, None) => return Err(CliError::usage("no value is given")),
             };
@@ -107,7 +107,7 @@ pub(super) fn run(command: &ParamCommand) -> Result<ExitCode, CliError> {
             } else {
                 read(file)?
             };
-            let Value::Struct(members) = yaml::read(&file.display().to_string(), &text)? else {
+            let XmlRpcValue::Struct(members) = yaml::read(&file.display().to_string(), &text)? else {
                 return Err(CliError::failed(format!(
                     "{} has no names of parameters at its top level",
                     file.display()
@@ -124,7 +124,7 @@ pub(super) fn run(command: &ParamCommand) -> Result<ExitCode, CliError> {
     Ok(ExitCode::SUCCESS)
 }
 
-fn get(client: &MasterClient, name: &str) -> Result<Value, CliError> {
+fn get(client: &MasterClient, name: &str) -> Result<XmlRpcValue, CliError> {
     client.ask("getParam", vec![full(name).into()]).map_err(|error| match error {
         RpcError::Refused(_) => CliError::failed(format!(
             "the parameter {} is not set: `periplus ros1 param list` lists all",

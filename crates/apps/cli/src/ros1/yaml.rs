@@ -3,37 +3,37 @@
 use std::fmt::Write as _;
 
 use periplus_diagnostics::SourceMap;
-use periplus_ros1::Value;
+use periplus_ros1::XmlRpcValue;
 use periplus_yaml::{YamlNode, YamlValue};
 
 use crate::error::CliError;
 
-/// Value of a YAML text; `name` is its file.
-pub(super) fn read(name: &str, text: &str) -> Result<Value, CliError> {
+/// XmlRpcValue of a YAML text; `name` is its file.
+pub(super) fn read(name: &str, text: &str) -> Result<XmlRpcValue, CliError> {
     let mut sources = SourceMap::new();
     let file = sources.add(name, text);
     match periplus_yaml::parse(file, &sources) {
         Ok(Some(node)) => value_of(&node),
-        Ok(None) => Ok(Value::Text(String::new())),
+        Ok(None) => Ok(XmlRpcValue::Text(String::new())),
         Err(finding) => Err(CliError::failed(format!("{name} is not YAML: {}", finding.message))),
     }
 }
 
-fn value_of(node: &YamlNode) -> Result<Value, CliError> {
+fn value_of(node: &YamlNode) -> Result<XmlRpcValue, CliError> {
     if let Some(number) = node.integer() {
-        let wide = || Value::Double(number as f64);
-        return Ok(i32::try_from(number).map_or_else(|_| wide(), Value::Int));
+        let wide = || XmlRpcValue::Double(number as f64);
+        return Ok(i32::try_from(number).map_or_else(|_| wide(), XmlRpcValue::Int));
     }
     if let Some(number) = node.number() {
-        return Ok(Value::Double(number));
+        return Ok(XmlRpcValue::Double(number));
     }
     if let Some(truth) = node.truth() {
-        return Ok(Value::Bool(truth));
+        return Ok(XmlRpcValue::Bool(truth));
     }
     match &node.value {
-        YamlValue::Scalar { text, .. } => Ok(Value::Text(text.clone())),
+        YamlValue::Scalar { text, .. } => Ok(XmlRpcValue::Text(text.clone())),
         YamlValue::List(list) => {
-            Ok(Value::List(list.iter().map(value_of).collect::<Result<_, _>>()?))
+            Ok(XmlRpcValue::List(list.iter().map(value_of).collect::<Result<_, _>>()?))
         }
         YamlValue::Map(entries) => {
             let pairs = entries.iter().map(|(name, value)| {
@@ -42,18 +42,18 @@ fn value_of(node: &YamlNode) -> Result<Value, CliError> {
                 })?;
                 Ok((name.to_owned(), value_of(value)?))
             });
-            Ok(Value::Struct(pairs.collect::<Result<_, CliError>>()?))
+            Ok(XmlRpcValue::Struct(pairs.collect::<Result<_, CliError>>()?))
         }
     }
 }
 
 /// YAML of a value, with a line break at its end.
-pub(super) fn write(value: &Value) -> String {
+pub(super) fn write(value: &XmlRpcValue) -> String {
     let mut out = String::new();
     match value {
         // As `rosparam get` prints a text: without quotes.
-        Value::Text(text) => out.push_str(text),
-        Value::Struct(members) if !members.is_empty() => block(&mut out, value, 0),
+        XmlRpcValue::Text(text) => out.push_str(text),
+        XmlRpcValue::Struct(members) if !members.is_empty() => block(&mut out, value, 0),
         other => flow(&mut out, other),
     }
     if !out.ends_with('\n') {
@@ -63,16 +63,16 @@ pub(super) fn write(value: &Value) -> String {
 }
 
 /// Lines of a dictionary.
-fn block(out: &mut String, value: &Value, indent: usize) {
-    let Value::Struct(members) = value else { return };
+fn block(out: &mut String, value: &XmlRpcValue, indent: usize) {
+    let XmlRpcValue::Struct(members) = value else { return };
     for (name, value) in members {
         let _ = write!(out, "{:indent$}{}:", "", scalar(name));
         match value {
-            Value::Struct(inner) if !inner.is_empty() => {
+            XmlRpcValue::Struct(inner) if !inner.is_empty() => {
                 out.push('\n');
                 block(out, value, indent + 2);
             }
-            Value::Text(text) if text.contains('\n') && !text.starts_with([' ', '\n']) => {
+            XmlRpcValue::Text(text) if text.contains('\n') && !text.starts_with([' ', '\n']) => {
                 let keep = if text.ends_with("\n\n") {
                     "+"
                 } else if text.ends_with('\n') {
@@ -96,17 +96,17 @@ fn block(out: &mut String, value: &Value, indent: usize) {
 }
 
 /// A value in one line.
-fn flow(out: &mut String, value: &Value) {
+fn flow(out: &mut String, value: &XmlRpcValue) {
     match value {
-        Value::Int(number) => _ = write!(out, "{number}"),
-        Value::Bool(is_true) => _ = write!(out, "{is_true}"),
-        Value::Double(number) => _ = write!(out, "{number:?}"),
-        Value::Text(text) | Value::Time(text) => out.push_str(&scalar(text)),
-        Value::Binary(bytes) => {
+        XmlRpcValue::Int(number) => _ = write!(out, "{number}"),
+        XmlRpcValue::Bool(is_true) => _ = write!(out, "{is_true}"),
+        XmlRpcValue::Double(number) => _ = write!(out, "{number:?}"),
+        XmlRpcValue::Text(text) | XmlRpcValue::Time(text) => out.push_str(&scalar(text)),
+        XmlRpcValue::Binary(bytes) => {
             let _ =
                 write!(out, "[{}]", bytes.iter().map(u8::to_string).collect::<Vec<_>>().join(", "));
         }
-        Value::List(list) => {
+        XmlRpcValue::List(list) => {
             out.push('[');
             for (at, one) in list.iter().enumerate() {
                 if at > 0 {
@@ -116,7 +116,7 @@ fn flow(out: &mut String, value: &Value) {
             }
             out.push(']');
         }
-        Value::Struct(members) => {
+        XmlRpcValue::Struct(members) => {
             out.push('{');
             for (at, (name, one)) in members.iter().enumerate() {
                 if at > 0 {
@@ -135,7 +135,7 @@ fn scalar(text: &str) -> String {
     let is_plain = !text.is_empty()
         && text.bytes().all(|byte| byte.is_ascii_alphanumeric() || b"_/.-".contains(&byte))
         && !text.starts_with(['-', '.'])
-        && matches!(read("text", text), Ok(Value::Text(_)))
+        && matches!(read("text", text), Ok(XmlRpcValue::Text(_)))
         && !matches!(text, "null" | "Null" | "NULL" | "yes" | "no" | "on" | "off");
     if is_plain { text.to_owned() } else { serde_json::Value::from(text).to_string() }
 }
@@ -145,32 +145,32 @@ mod tests {
     use super::*;
 
     #[track_caller]
-    fn check(text: &str, expected: Value) {
+    fn check(text: &str, expected: XmlRpcValue) {
         assert_eq!(read("text", text).expect("YAML"), expected);
     }
 
     #[test]
     fn values_have_their_types() {
-        check("7", Value::Int(7));
-        check("5000000000", Value::Double(5e9));
-        check("0.5", Value::Double(0.5));
-        check("true", Value::Bool(true));
-        check("'7'", Value::Text("7".into()));
-        check("base_link", Value::Text("base_link".into()));
-        check("[1, a]", Value::List(vec![Value::Int(1), Value::Text("a".into())]));
-        check("{a: 1}", Value::Struct([("a".to_owned(), Value::Int(1))].into()));
+        check("7", XmlRpcValue::Int(7));
+        check("5000000000", XmlRpcValue::Double(5e9));
+        check("0.5", XmlRpcValue::Double(0.5));
+        check("true", XmlRpcValue::Bool(true));
+        check("'7'", XmlRpcValue::Text("7".into()));
+        check("base_link", XmlRpcValue::Text("base_link".into()));
+        check("[1, a]", XmlRpcValue::List(vec![XmlRpcValue::Int(1), XmlRpcValue::Text("a".into())]));
+        check("{a: 1}", XmlRpcValue::Struct([("a".to_owned(), XmlRpcValue::Int(1))].into()));
     }
 
     #[test]
     fn what_is_written_is_read_again() {
         let inner = [
-            ("text".to_owned(), Value::Text("7".into())),
-            ("lines".to_owned(), Value::Text("a: 1\nb\n".into())),
-            ("open".to_owned(), Value::Text("a\nb".into())),
-            ("list".to_owned(), Value::List(vec![Value::Double(1.0), Value::Text("x y".into())])),
-            ("empty".to_owned(), Value::Struct(Default::default())),
+            ("text".to_owned(), XmlRpcValue::Text("7".into())),
+            ("lines".to_owned(), XmlRpcValue::Text("a: 1\nb\n".into())),
+            ("open".to_owned(), XmlRpcValue::Text("a\nb".into())),
+            ("list".to_owned(), XmlRpcValue::List(vec![XmlRpcValue::Double(1.0), XmlRpcValue::Text("x y".into())])),
+            ("empty".to_owned(), XmlRpcValue::Struct(Default::default())),
         ];
-        let all = Value::Struct([("slam".to_owned(), Value::Struct(inner.into()))].into());
+        let all = XmlRpcValue::Struct([("slam".to_owned(), XmlRpcValue::Struct(inner.into()))].into());
         let text = write(&all);
         assert_eq!(read("text", &text).expect("YAML"), all, "{text}");
     }

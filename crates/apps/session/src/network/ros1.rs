@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use periplus_graph::Graph;
 use periplus_os::Machine;
-use periplus_ros1::{MasterUse, Ros1Error, Ros1Reach, Ros1Transport, Settings, Value};
+use periplus_ros1::{MasterUse, Ros1Error, Ros1Reach, Ros1Transport, Settings, XmlRpcValue};
 
 use crate::error::RunError;
 use crate::terminal;
@@ -29,7 +29,7 @@ pub(crate) struct Ros1Connection {
 pub fn join_ros1(
     graph: &Graph,
     reach: Ros1Reach,
-    parameters: Vec<(String, Value)>,
+    parameters: Vec<(String, XmlRpcValue)>,
     is_quiet: bool,
 ) -> Result<Ros1Transport, RunError> {
     let (settings, findings) = Settings::from_environment(&Machine, reach);
@@ -57,7 +57,7 @@ impl Ros1Connection {
     pub(crate) fn join(
         graph: &Graph,
         reach: Ros1Reach,
-        mut parameters: Vec<(String, Value)>,
+        mut parameters: Vec<(String, XmlRpcValue)>,
         is_quiet: bool,
     ) -> Result<Self, RunError> {
         // Programs that start from now on take their time from /clock.

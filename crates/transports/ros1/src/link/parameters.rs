@@ -9,7 +9,7 @@ use periplus_transport::{Since, is_stand_in};
 
 use super::Net;
 use crate::names::node_name;
-use crate::xmlrpc::Value;
+use crate::xmlrpc::XmlRpcValue;
 
 /// A parameter that programs of ROS 1, such as RViz, look for in the namespace of the robot.
 const ROBOT_DESCRIPTION: &str = "robot_description";
@@ -20,7 +20,7 @@ const LOOK: Duration = Duration::from_secs(1);
 /// What the parameter server has of the graph's nodes.
 #[derive(Default)]
 pub(super) struct Parameters {
-    known: BTreeMap<String, Value>,
+    known: BTreeMap<String, XmlRpcValue>,
     looked: Option<Since>,
 }
 
@@ -61,22 +61,22 @@ impl Parameters {
 }
 
 /// Value on the parameter server; none for one that is not set.
-fn value_of(value: &ParameterValue) -> Option<Value> {
+fn value_of(value: &ParameterValue) -> Option<XmlRpcValue> {
     let integer = |number: &i64| match i32::try_from(*number) {
-        Ok(number) => Value::Int(number),
+        Ok(number) => XmlRpcValue::Int(number),
         // The parameter server has 32 bits.
-        Err(_) => Value::Double(*number as f64),
+        Err(_) => XmlRpcValue::Double(*number as f64),
     };
     let one = value;
     Some(match one.r#type {
-        ParameterType::PARAMETER_BOOL => Value::Bool(one.bool_value),
+        ParameterType::PARAMETER_BOOL => XmlRpcValue::Bool(one.bool_value),
         ParameterType::PARAMETER_INTEGER => integer(&one.integer_value),
-        ParameterType::PARAMETER_DOUBLE => Value::Double(one.double_value),
-        ParameterType::PARAMETER_STRING => Value::Text(one.string_value.clone()),
-        ParameterType::PARAMETER_BYTE_ARRAY => Value::Binary(one.byte_array_value.clone()),
+        ParameterType::PARAMETER_DOUBLE => XmlRpcValue::Double(one.double_value),
+        ParameterType::PARAMETER_STRING => XmlRpcValue::Text(one.string_value.clone()),
+        ParameterType::PARAMETER_BYTE_ARRAY => XmlRpcValue::Binary(one.byte_array_value.clone()),
         ParameterType::PARAMETER_BOOL_ARRAY => one.bool_array_value.clone().into(),
         ParameterType::PARAMETER_INTEGER_ARRAY => {
-            Value::List(one.integer_array_value.iter().map(integer).collect())
+            XmlRpcValue::List(one.integer_array_value.iter().map(integer).collect())
         }
         ParameterType::PARAMETER_DOUBLE_ARRAY => one.double_array_value.clone().into(),
         ParameterType::PARAMETER_STRING_ARRAY => one.string_array_value.clone().into(),

@@ -9,7 +9,7 @@ use periplus_transport::lock;
 
 use super::state::Notification;
 use crate::rpc;
-use crate::xmlrpc::Call;
+use crate::xmlrpc::RpcCall;
 
 /// Timeout of a call to a node.
 const PATIENCE: Duration = Duration::from_secs(5);
@@ -22,7 +22,7 @@ const MAX_NODES: usize = 256;
 
 /// Calls that wait, by the address of the node. A node with an entry has a thread.
 #[derive(Clone, Default)]
-pub(super) struct Notifier(Arc<Mutex<BTreeMap<String, VecDeque<Call>>>>);
+pub(super) struct Notifier(Arc<Mutex<BTreeMap<String, VecDeque<RpcCall>>>>);
 
 impl Notifier {
     /// Makes calls, in this order for each node.

@@ -2,20 +2,20 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::xmlrpc::Value;
+use crate::xmlrpc::XmlRpcValue;
 
 /// The parameters, and the nodes that want to hear of changes.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Parameters {
     /// Always a dictionary.
-    root: Value,
+    root: XmlRpcValue,
     /// Addresses of nodes by the parameter that they follow.
     subscribers: BTreeMap<String, BTreeSet<String>>,
 }
 
 impl Default for Parameters {
     fn default() -> Self {
-        Self { root: Value::Struct(BTreeMap::new()), subscribers: BTreeMap::new() }
+        Self { root: XmlRpcValue::Struct(BTreeMap::new()), subscribers: BTreeMap::new() }
     }
 }
 
@@ -24,7 +24,7 @@ impl Default for Parameters {
 pub(super) struct Change {
     pub(super) address: String,
     pub(super) key: String,
-    pub(super) value: Value,
+    pub(super) value: XmlRpcValue,
 }
 
 fn parts(key: &str) -> impl Iterator<Item = &str> {
@@ -33,25 +33,25 @@ fn parts(key: &str) -> impl Iterator<Item = &str> {
 
 impl Parameters {
     /// Value of a parameter, or of all below a namespace; `key` is a full name, `/` for all.
-    pub(super) fn get(&self, key: &str) -> Option<&Value> {
+    pub(super) fn get(&self, key: &str) -> Option<&XmlRpcValue> {
         parts(key).try_fold(&self.root, |value, part| match value {
-            Value::Struct(members) => members.get(part),
+            XmlRpcValue::Struct(members) => members.get(part),
             _ => None,
         })
     }
 
     /// Sets a parameter, or a namespace to a dictionary. Values on the way that are no dictionaries are replaced by
     /// one. Returns what nodes hear of it.
-    pub(super) fn set(&mut self, key: &str, value: Value) -> Vec<Change> {
+    pub(super) fn set(&mut self, key: &str, value: XmlRpcValue) -> Vec<Change> {
         let changes = self.changes(key, &value);
         let mut place = &mut self.root;
         for part in parts(key) {
-            if !matches!(place, Value::Struct(_)) {
-                *place = Value::Struct(BTreeMap::new());
+            if !matches!(place, XmlRpcValue::Struct(_)) {
+                *place = XmlRpcValue::Struct(BTreeMap::new());
             }
-            let Value::Struct(members) = place else { return changes };
+            let XmlRpcValue::Struct(members) = place else { return changes };
             place =
-                members.entry(part.to_owned()).or_insert_with(|| Value::Struct(BTreeMap::new()));
+                members.entry(part.to_owned()).or_insert_with(|| XmlRpcValue::Struct(BTreeMap::new()));
         }
         *place = value;
         changes
@@ -62,12 +62,12 @@ impl Parameters {
         let mut names: Vec<&str> = parts(key).collect();
         let last = names.pop()?;
         let above = names.into_iter().try_fold(&mut self.root, |value, part| match value {
-            Value::Struct(members) => members.get_mut(part),
+            XmlRpcValue::Struct(members) => members.get_mut(part),
             _ => None,
         })?;
-        let Value::Struct(members) = above else { return None };
+        let XmlRpcValue::Struct(members) = above else { return None };
         members.remove(last)?;
-        Some(self.changes(key, &Value::Struct(BTreeMap::new())))
+        Some(self.changes(key, &XmlRpcValue::Struct(BTreeMap::new())))
     }
 
     /// Full name of the nearest parameter that begins with the first part of `key`, from the namespace upwards.
@@ -92,10 +92,10 @@ impl Parameters {
     }
 
     /// Adds a node that hears of changes; returns the value, an empty dictionary if it is not set.
-    pub(super) fn subscribe(&mut self, key: &str, address: &str) -> Value {
+    pub(super) fn subscribe(&mut self, key: &str, address: &str) -> XmlRpcValue {
         let subscribers = self.subscribers.entry(key.to_owned()).or_default();
         subscribers.insert(address.to_owned());
-        self.get(key).cloned().unwrap_or_else(|| Value::Struct(BTreeMap::new()))
+        self.get(key).cloned().unwrap_or_else(|| XmlRpcValue::Struct(BTreeMap::new()))
     }
 
     /// Removes a node from those that hear of changes; true if it was one.
@@ -117,21 +117,21 @@ impl Parameters {
     }
 
     /// Changes for those who follow the parameter, one above it, or one below it.
-    fn changes(&self, key: &str, value: &Value) -> Vec<Change> {
+    fn changes(&self, key: &str, value: &XmlRpcValue) -> Vec<Change> {
         let mut changes = Vec::new();
         for (followed, addresses) in &self.subscribers {
             let (key, value) = if is_within(key, followed) {
                 (key, Some(value))
             } else if let Some(rest) = below(followed, key) {
                 let inner = parts(rest).try_fold(value, |value, part| match value {
-                    Value::Struct(members) => members.get(part),
+                    XmlRpcValue::Struct(members) => members.get(part),
                     _ => None,
                 });
                 (followed.as_str(), inner)
             } else {
                 continue;
             };
-            let empty = || Value::Struct(BTreeMap::new());
+            let empty = || XmlRpcValue::Struct(BTreeMap::new());
             let value = value.cloned().unwrap_or_else(empty);
             changes.extend(addresses.iter().map(|address| Change {
                 address: address.clone(),
@@ -153,9 +153,9 @@ fn below<'a>(key: &'a str, namespace: &str) -> Option<&'a str> {
     key.strip_prefix(namespace.trim_end_matches('/'))?.strip_prefix('/')
 }
 
-fn collect(value: &Value, name: String, names: &mut Vec<String>) {
+fn collect(value: &XmlRpcValue, name: String, names: &mut Vec<String>) {
     match value {
-        Value::Struct(members) => {
+        XmlRpcValue::Struct(members) => {
             for (part, inner) in members {
                 collect(inner, format!("{name}/{part}"), names);
             }
@@ -171,7 +171,7 @@ mod tests {
     fn with(pairs: &[(&str, i32)]) -> Parameters {
         let mut parameters = Parameters::default();
         for (key, value) in pairs {
-            parameters.set(key, Value::Int(*value));
+            parameters.set(key, XmlRpcValue::Int(*value));
         }
         parameters
     }
@@ -180,9 +180,9 @@ mod tests {
     fn namespaces_are_dictionaries() {
         let mut parameters = with(&[("/a/b", 1), ("/a/c", 2), ("/d", 3)]);
         assert_eq!(parameters.names(), ["/a/b", "/a/c", "/d"]);
-        assert_eq!(parameters.get("/a/c"), Some(&Value::Int(2)));
-        let both = [("b".to_owned(), Value::Int(1)), ("c".to_owned(), Value::Int(2))];
-        assert_eq!(parameters.get("/a"), Some(&Value::Struct(both.into())));
+        assert_eq!(parameters.get("/a/c"), Some(&XmlRpcValue::Int(2)));
+        let both = [("b".to_owned(), XmlRpcValue::Int(1)), ("c".to_owned(), XmlRpcValue::Int(2))];
+        assert_eq!(parameters.get("/a"), Some(&XmlRpcValue::Struct(both.into())));
         assert_eq!(parameters.get("/a/b/x"), None);
         assert!(parameters.delete("/a/b").is_some());
         assert!(parameters.delete("/a/b").is_none());
@@ -204,27 +204,27 @@ mod tests {
     #[test]
     fn who_follows_a_parameter_hears_of_it_from_above_and_below() {
         let mut parameters = Parameters::default();
-        assert_eq!(parameters.subscribe("/a", "http://x:1/"), Value::Struct(BTreeMap::new()));
+        assert_eq!(parameters.subscribe("/a", "http://x:1/"), XmlRpcValue::Struct(BTreeMap::new()));
         parameters.subscribe("/a/b", "http://y:2/");
-        let heard = |changes: Vec<Change>| -> Vec<(String, String, Value)> {
+        let heard = |changes: Vec<Change>| -> Vec<(String, String, XmlRpcValue)> {
             changes.into_iter().map(|one| (one.address, one.key, one.value)).collect()
         };
         let (x, y) = ("http://x:1/".to_owned(), "http://y:2/".to_owned());
         let (a, b) = ("/a".to_owned(), "/a/b".to_owned());
-        let one = Value::Int(1);
+        let one = XmlRpcValue::Int(1);
         assert_eq!(
             heard(parameters.set("/a/b", one.clone())),
             [(x.clone(), b.clone(), one.clone()), (y.clone(), b.clone(), one.clone())]
         );
-        let all = Value::Struct([("b".to_owned(), one.clone())].into());
+        let all = XmlRpcValue::Struct([("b".to_owned(), one.clone())].into());
         assert_eq!(
             heard(parameters.set("/a", all.clone())),
             [(x.clone(), a, all), (y.clone(), b, one)]
         );
-        assert!(heard(parameters.set("/ab", Value::Int(2))).is_empty());
+        assert!(heard(parameters.set("/ab", XmlRpcValue::Int(2))).is_empty());
         assert!(parameters.unsubscribe("/a", &x));
         assert!(!parameters.unsubscribe("/a", &x));
         parameters.forget(&y);
-        assert!(heard(parameters.set("/a/b", Value::Int(3))).is_empty());
+        assert!(heard(parameters.set("/a/b", XmlRpcValue::Int(3))).is_empty());
     }
 }

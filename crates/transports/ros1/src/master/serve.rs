@@ -10,7 +10,7 @@ use super::rosout::Rosout;
 use super::state::MasterState;
 use crate::error::Ros1Error;
 use crate::server::{Handler, Server};
-use crate::xmlrpc::{Call, Fault, Value};
+use crate::xmlrpc::{RpcCall, RpcFault, XmlRpcValue};
 
 /// A master with a parameter server and the node `/rosout`, until this is dropped.
 pub struct Master {
@@ -26,7 +26,7 @@ struct MasterHandler {
 }
 
 impl Handler for MasterHandler {
-    fn call(&self, call: Call) -> Result<Value, Fault> {
+    fn call(&self, call: RpcCall) -> Result<XmlRpcValue, RpcFault> {
         let is_removal = call.method.starts_with("unregister");
         let mut state = lock(&self.state);
         let (answer, out) = state.call(call);
@@ -63,7 +63,7 @@ impl Master {
         *lock(&serving.state) = MasterState::new(&uri);
         let setting = |key: &str, value: &str| {
             let params = vec!["/master".into(), key.into(), value.into()];
-            let _ = serving.call(Call { method: "setParam".to_owned(), params });
+            let _ = serving.call(RpcCall { method: "setParam".to_owned(), params });
         };
         setting("/rosdistro", "noetic\n");
         setting("/rosversion", "1.16.0\n");

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::parameters::{Change, Parameters};
 use super::registrations::Registrations;
 use crate::names::resolve;
-use crate::xmlrpc::{Call, Fault, Value};
+use crate::xmlrpc::{RpcCall, RpcFault, XmlRpcValue};
 
 /// A call that the master makes to a node.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,7 +13,7 @@ pub struct Notification {
     /// Address of the node.
     pub address: String,
     /// The call.
-    pub call: Call,
+    pub call: RpcCall,
 }
 
 /// Registrations and parameters.
@@ -32,7 +32,7 @@ pub struct MasterState {
 
 /// Result of a call: `[code, text, value]`.
 enum Outcome {
-    Done(String, Value),
+    Done(String, XmlRpcValue),
     /// The call is right, and there is no such thing.
     Failed(String),
     /// The parameters of the call are wrong.
@@ -58,30 +58,30 @@ impl MasterState {
     ///
     /// # Errors
     /// When there is no such method.
-    pub fn call(&mut self, call: Call) -> (Result<Value, Fault>, Vec<Notification>) {
+    pub fn call(&mut self, call: RpcCall) -> (Result<XmlRpcValue, RpcFault>, Vec<Notification>) {
         let mut out = Vec::new();
-        let Call { method, params } = call;
+        let RpcCall { method, params } = call;
         let Some(outcome) = self.answer(&method, &params, &mut out) else {
             let text = format!("method `{method}` is not supported");
-            return (Err(Fault { code: -1, text }), out);
+            return (Err(RpcFault { code: -1, text }), out);
         };
         let (code, text, value) = match outcome {
             Done(text, value) => (1, text, value),
-            Failed(text) => (-1, text, Value::Int(0)),
-            Wrong(text) => (-1, format!("ERROR: {method}: {text}"), Value::Int(0)),
+            Failed(text) => (-1, text, XmlRpcValue::Int(0)),
+            Wrong(text) => (-1, format!("ERROR: {method}: {text}"), XmlRpcValue::Int(0)),
         };
-        (Ok(Value::List(vec![Value::Int(code), Value::Text(text), value])), out)
+        (Ok(XmlRpcValue::List(vec![XmlRpcValue::Int(code), XmlRpcValue::Text(text), value])), out)
     }
 
     fn answer(
         &mut self,
         method: &str,
-        params: &[Value],
+        params: &[XmlRpcValue],
         out: &mut Vec<Notification>,
     ) -> Option<Outcome> {
-        let texts: Vec<&str> = params.iter().map_while(Value::text).collect();
+        let texts: Vec<&str> = params.iter().map_while(XmlRpcValue::text).collect();
         Some(match (method, texts.as_slice()) {
-            ("getPid", _) => Done(String::new(), Value::Int(process_id())),
+            ("getPid", _) => Done(String::new(), XmlRpcValue::Int(process_id())),
             ("getUri", _) => Done(String::new(), self.uri.clone().into()),
             ("registerService", &[node, service, address, api]) => {
                 self.register_service(node, service, address, api, out)
@@ -122,20 +122,20 @@ impl MasterState {
             ("getPublishedTopics", &[caller, subgraph]) => self.published(caller, subgraph),
             ("getTopicTypes", _) => {
                 let types = self.topic_types.iter();
-                let pairs: Vec<Value> =
+                let pairs: Vec<XmlRpcValue> =
                     types.map(|(name, of)| vec![name.clone(), of.clone()].into()).collect();
-                Done("current topics".into(), Value::List(pairs))
+                Done("current topics".into(), XmlRpcValue::List(pairs))
             }
             ("getSystemState", _) => {
                 let all = [&self.publishers, &self.subscribers, &self.services];
-                Done("current system state".into(), Value::List(all.map(state_of).into()))
+                Done("current system state".into(), XmlRpcValue::List(all.map(state_of).into()))
             }
             ("deleteParam", &[caller, key]) => {
                 let key = resolve(key, caller);
                 match self.parameters.delete(&key) {
                     Some(changes) => {
                         tell(changes, out);
-                        Done(format!("parameter {key} deleted"), Value::Int(0))
+                        Done(format!("parameter {key} deleted"), XmlRpcValue::Int(0))
                     }
                     None => Failed(format!("parameter [{key}] is not set")),
                 }
@@ -170,7 +170,7 @@ impl MasterState {
             }
             ("getParamNames", _) => Done("Parameter names".into(), self.parameters.names().into()),
             (known, _) if METHODS.contains(&known) => {
-                let kinds: Vec<&str> = params.iter().map(Value::kind).collect();
+                let kinds: Vec<&str> = params.iter().map(XmlRpcValue::kind).collect();
                 Wrong(format!("got {} parameters: {}", params.len(), kinds.join(", ")))
             }
             _ => return None,
@@ -178,12 +178,12 @@ impl MasterState {
     }
 
     /// Sets a parameter by its full name. The whole tree can only be a dictionary.
-    fn set_parameter(&mut self, key: &str, value: Value, out: &mut Vec<Notification>) -> Outcome {
-        if key.is_empty() && !matches!(value, Value::Struct(_)) {
+    fn set_parameter(&mut self, key: &str, value: XmlRpcValue, out: &mut Vec<Notification>) -> Outcome {
+        if key.is_empty() && !matches!(value, XmlRpcValue::Struct(_)) {
             return Wrong("all parameters together are a dictionary".into());
         }
         tell(self.parameters.set(key, value), out);
-        Done(format!("parameter {key} set"), Value::Int(0))
+        Done(format!("parameter {key} set"), XmlRpcValue::Int(0))
     }
 
     fn register_service(
@@ -197,7 +197,7 @@ impl MasterState {
         let service = resolve(service, node);
         self.register_node(node, api, out);
         self.services.replace(&service, node, address);
-        Done(format!("Registered [{node}] as provider of [{service}]"), Value::Int(1))
+        Done(format!("Registered [{node}] as provider of [{service}]"), XmlRpcValue::Int(1))
     }
 
     fn register_subscriber(
@@ -249,7 +249,7 @@ impl MasterState {
         }
         let why = "new node registered with same name";
         let params = vec![MASTER.into(), format!("[{node}] Reason: {why}").into()];
-        let call = Call { method: "shutdown".to_owned(), params };
+        let call = RpcCall { method: "shutdown".to_owned(), params };
         out.push(Notification { address: old, call });
     }
 
@@ -257,7 +257,7 @@ impl MasterState {
         let publishers = self.publishers.addresses(topic);
         for one in self.subscribers.at(topic) {
             let params = vec![MASTER.into(), topic.into(), publishers.clone().into()];
-            let call = Call { method: "publisherUpdate".to_owned(), params };
+            let call = RpcCall { method: "publisherUpdate".to_owned(), params };
             out.push(Notification { address: one.address.clone(), call });
         }
     }
@@ -272,7 +272,7 @@ impl MasterState {
             let of = self.topic_types.get(topic)?;
             Some(vec![topic.to_owned(), of.clone()].into())
         });
-        Done("current topics".into(), Value::List(pairs.collect()))
+        Done("current topics".into(), XmlRpcValue::List(pairs.collect()))
     }
 
     /// Forgets nodes without topics, services and parameters; the answers of `lookupNode` would be wrong.
@@ -308,7 +308,7 @@ const METHODS: [&str; 17] = [
 fn tell(changes: Vec<Change>, out: &mut Vec<Notification>) {
     for Change { address, key, value } in changes {
         let params = vec![MASTER.into(), key.into(), value];
-        out.push(Notification { address, call: Call { method: "paramUpdate".to_owned(), params } });
+        out.push(Notification { address, call: RpcCall { method: "paramUpdate".to_owned(), params } });
     }
 }
 
@@ -318,15 +318,15 @@ fn removed(was: bool, node: &str, name: &str) -> Outcome {
     } else {
         format!("[{node}] is not registered for [{name}]")
     };
-    Done(text, Value::Int(i32::from(was)))
+    Done(text, XmlRpcValue::Int(i32::from(was)))
 }
 
-fn state_of(registrations: &Registrations) -> Value {
+fn state_of(registrations: &Registrations) -> XmlRpcValue {
     let all = registrations.iter().map(|(key, all)| {
         let nodes: Vec<String> = all.iter().map(|one| one.node.clone()).collect();
-        Value::List(vec![key.into(), nodes.into()])
+        XmlRpcValue::List(vec![key.into(), nodes.into()])
     });
-    Value::List(all.collect())
+    XmlRpcValue::List(all.collect())
 }
 
 pub(crate) fn process_id() -> i32 {
@@ -342,11 +342,11 @@ mod tests {
 
     /// Result of a call of text parameters, and the calls because of it.
     #[track_caller]
-    fn ask(state: &mut MasterState, method: &str, params: &[&str]) -> (Value, Vec<Notification>) {
-        let params = params.iter().map(|text| Value::from(*text)).collect();
-        let (answer, out) = state.call(Call { method: method.to_owned(), params });
-        let Ok(Value::List(parts)) = answer else { panic!("{answer:?}") };
-        assert_eq!(parts[0], Value::Int(1), "{parts:?}");
+    fn ask(state: &mut MasterState, method: &str, params: &[&str]) -> (XmlRpcValue, Vec<Notification>) {
+        let params = params.iter().map(|text| XmlRpcValue::from(*text)).collect();
+        let (answer, out) = state.call(RpcCall { method: method.to_owned(), params });
+        let Ok(XmlRpcValue::List(parts)) = answer else { panic!("{answer:?}") };
+        assert_eq!(parts[0], XmlRpcValue::Int(1), "{parts:?}");
         (parts[2].clone(), out)
     }
 
@@ -355,28 +355,28 @@ mod tests {
         let mut state = MasterState::new("http://here:11311/");
         let (known, out) =
             ask(&mut state, "registerSubscriber", &["/map", "scan", "sensor_msgs/LaserScan", A]);
-        assert_eq!((known, out), (Value::List(vec![]), vec![]));
+        assert_eq!((known, out), (XmlRpcValue::List(vec![]), vec![]));
         let (known, out) =
             ask(&mut state, "registerPublisher", &["/lidar", "/scan", "sensor_msgs/LaserScan", B]);
         assert_eq!(known, vec![A].into());
         let update = |publishers: Vec<&str>| Notification {
             address: A.to_owned(),
-            call: Call {
+            call: RpcCall {
                 method: "publisherUpdate".to_owned(),
                 params: vec!["/master".into(), "/scan".into(), publishers.into()],
             },
         };
         assert_eq!(out, [update(vec![B])]);
         let (types, _) = ask(&mut state, "getPublishedTopics", &["/x", ""]);
-        assert_eq!(types, Value::List(vec![vec!["/scan", "sensor_msgs/LaserScan"].into()]));
+        assert_eq!(types, XmlRpcValue::List(vec![vec!["/scan", "sensor_msgs/LaserScan"].into()]));
         let (count, out) = ask(&mut state, "unregisterPublisher", &["/lidar", "/scan", B]);
-        assert_eq!((count, out), (Value::Int(1), vec![update(vec![])]));
+        assert_eq!((count, out), (XmlRpcValue::Int(1), vec![update(vec![])]));
         let (count, _) = ask(&mut state, "unregisterPublisher", &["/lidar", "/scan", B]);
-        assert_eq!(count, Value::Int(0));
+        assert_eq!(count, XmlRpcValue::Int(0));
         state.drop_idle_nodes();
         let (found, _) = state
-            .call(Call { method: "lookupNode".into(), params: vec!["/x".into(), "/lidar".into()] });
-        assert!(matches!(found, Ok(Value::List(parts)) if parts[0] == Value::Int(-1)));
+            .call(RpcCall { method: "lookupNode".into(), params: vec!["/x".into(), "/lidar".into()] });
+        assert!(matches!(found, Ok(XmlRpcValue::List(parts)) if parts[0] == XmlRpcValue::Int(-1)));
     }
 
     #[test]
@@ -388,17 +388,17 @@ mod tests {
         assert_eq!(out.len(), 1);
         assert_eq!((out[0].address.as_str(), out[0].call.method.as_str()), (A, "shutdown"));
         let (answer, _) = state
-            .call(Call { method: "lookupService".into(), params: vec!["/x".into(), "/on".into()] });
-        assert!(matches!(answer, Ok(Value::List(parts)) if parts[0] == Value::Int(-1)));
+            .call(RpcCall { method: "lookupService".into(), params: vec!["/x".into(), "/on".into()] });
+        assert!(matches!(answer, Ok(XmlRpcValue::List(parts)) if parts[0] == XmlRpcValue::Int(-1)));
     }
 
     #[test]
     fn parameters_belong_to_namespaces() {
         let mut state = MasterState::new("http://here:11311/");
-        let params = vec!["/slam".into(), "~delta".into(), Value::Double(0.05)];
-        let _ = state.call(Call { method: "setParam".into(), params });
-        assert_eq!(ask(&mut state, "getParam", &["/x", "/slam/delta"]).0, Value::Double(0.05));
-        assert_eq!(ask(&mut state, "hasParam", &["/x", "delta"]).0, Value::Bool(false));
+        let params = vec!["/slam".into(), "~delta".into(), XmlRpcValue::Double(0.05)];
+        let _ = state.call(RpcCall { method: "setParam".into(), params });
+        assert_eq!(ask(&mut state, "getParam", &["/x", "/slam/delta"]).0, XmlRpcValue::Double(0.05));
+        assert_eq!(ask(&mut state, "hasParam", &["/x", "delta"]).0, XmlRpcValue::Bool(false));
         assert_eq!(ask(&mut state, "searchParam", &["/slam", "delta"]).0, "/slam/delta".into());
         assert_eq!(ask(&mut state, "getParamNames", &["/x"]).0, vec!["/slam/delta"].into());
     }
@@ -406,15 +406,15 @@ mod tests {
     #[test]
     fn wrong_calls_are_refused() {
         let mut state = MasterState::new("http://here:11311/");
-        let (answer, _) = state.call(Call { method: "fly".into(), params: vec![] });
+        let (answer, _) = state.call(RpcCall { method: "fly".into(), params: vec![] });
         assert!(answer.is_err());
-        let call = Call { method: "getParam".into(), params: vec![Value::Int(1)] };
+        let call = RpcCall { method: "getParam".into(), params: vec![XmlRpcValue::Int(1)] };
         let (answer, _) = state.call(call);
         let text = "ERROR: getParam: got 1 parameters: an integer";
-        let expected = vec![Value::Int(-1), text.into(), Value::Int(0)];
-        assert_eq!(answer, Ok(Value::List(expected)));
-        let params = vec!["/x".into(), "/".into(), Value::Int(1)];
-        let (answer, _) = state.call(Call { method: "setParam".into(), params });
-        assert!(matches!(answer, Ok(Value::List(parts)) if parts[0] == Value::Int(-1)));
+        let expected = vec![XmlRpcValue::Int(-1), text.into(), XmlRpcValue::Int(0)];
+        assert_eq!(answer, Ok(XmlRpcValue::List(expected)));
+        let params = vec!["/x".into(), "/".into(), XmlRpcValue::Int(1)];
+        let (answer, _) = state.call(RpcCall { method: "setParam".into(), params });
+        assert!(matches!(answer, Ok(XmlRpcValue::List(parts)) if parts[0] == XmlRpcValue::Int(-1)));
     }
 }

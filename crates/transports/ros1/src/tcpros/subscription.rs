@@ -13,7 +13,7 @@ use periplus_transport::lock;
 use super::{Header, MAX_MESSAGE_BYTES, read_frame_after, read_header};
 use crate::names::Ros1Type;
 use crate::rpc::{self, RpcError};
-use crate::xmlrpc::Value;
+use crate::xmlrpc::XmlRpcValue;
 
 /// Timeout of a call to a publisher, and of the headers.
 const PATIENCE: Duration = Duration::from_secs(5);
@@ -216,7 +216,7 @@ impl Shared {
 
     /// Asks a publisher for the address of its TCPROS connections.
     fn agree(&self, publisher: &str) -> Result<(String, u16), End> {
-        let protocols = Value::List(vec![Value::List(vec!["TCPROS".into()])]);
+        let protocols = XmlRpcValue::List(vec![XmlRpcValue::List(vec!["TCPROS".into()])]);
         let params = vec![self.caller.as_str().into(), self.topic.as_str().into(), protocols];
         let agreed = rpc::ask(publisher, "requestTopic", params, PATIENCE).map_err(|error| {
             match error {
@@ -226,7 +226,7 @@ impl Shared {
             }
         })?;
         match agreed.list() {
-            Some([Value::Text(protocol), Value::Text(host), Value::Int(port)])
+            Some([XmlRpcValue::Text(protocol), XmlRpcValue::Text(host), XmlRpcValue::Int(port)])
                 if protocol == "TCPROS" =>
             {
                 let port = u16::try_from(*port).map_err(|_| End::Lost)?;

@@ -8,7 +8,7 @@ use base64::engine::general_purpose::STANDARD;
 use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_xml::{Element, XmlNode};
 
-use super::{Call, Fault, Value};
+use super::{RpcCall, RpcFault, XmlRpcValue};
 
 /// A text that is no request, or no response, of XML-RPC.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -26,7 +26,7 @@ impl std::error::Error for MalformedXmlRpc {}
 ///
 /// # Errors
 /// When the text is not one.
-pub fn read_call(body: &[u8]) -> Result<Call, MalformedXmlRpc> {
+pub fn read_call(body: &[u8]) -> Result<RpcCall, MalformedXmlRpc> {
     let root = parse(body)?;
     if root.name != "methodCall" {
         return Err(unexpected(&root, "methodCall"));
@@ -36,25 +36,25 @@ pub fn read_call(body: &[u8]) -> Result<Call, MalformedXmlRpc> {
         Some(params) => values(params)?,
         None => Vec::new(),
     };
-    Ok(Call { method, params })
+    Ok(RpcCall { method, params })
 }
 
 /// Reads a response.
 ///
 /// # Errors
 /// When the text is not one.
-pub fn read_response(body: &[u8]) -> Result<Result<Value, Fault>, MalformedXmlRpc> {
+pub fn read_response(body: &[u8]) -> Result<Result<XmlRpcValue, RpcFault>, MalformedXmlRpc> {
     let root = parse(body)?;
     if root.name != "methodResponse" {
         return Err(unexpected(&root, "methodResponse"));
     }
     if let Some(fault) = root.child("fault") {
-        let Value::Struct(members) = value(child(fault, "value")?)? else {
+        let XmlRpcValue::Struct(members) = value(child(fault, "value")?)? else {
             return Err(MalformedXmlRpc("the fault has no members".into()));
         };
-        let code = members.get("faultCode").and_then(Value::int).unwrap_or_default();
-        let text = members.get("faultString").and_then(Value::text).unwrap_or_default().to_owned();
-        return Ok(Err(Fault { code, text }));
+        let code = members.get("faultCode").and_then(XmlRpcValue::int).unwrap_or_default();
+        let text = members.get("faultString").and_then(XmlRpcValue::text).unwrap_or_default().to_owned();
+        return Ok(Err(RpcFault { code, text }));
     }
     let value = values(child(&root, "params")?)?.into_iter().next();
     value.map(Ok).ok_or_else(|| MalformedXmlRpc("the response has no value".into()))
@@ -82,33 +82,33 @@ fn unexpected(element: &Element, wanted: &str) -> MalformedXmlRpc {
 }
 
 /// Values of `<params>`.
-fn values(params: &Element) -> Result<Vec<Value>, MalformedXmlRpc> {
+fn values(params: &Element) -> Result<Vec<XmlRpcValue>, MalformedXmlRpc> {
     params.named("param").map(|param| value(child(param, "value")?)).collect()
 }
 
-fn value(element: &Element) -> Result<Value, MalformedXmlRpc> {
+fn value(element: &Element) -> Result<XmlRpcValue, MalformedXmlRpc> {
     let Some(typed) = element.elements().next() else {
-        return Ok(Value::Text(characters(element)));
+        return Ok(XmlRpcValue::Text(characters(element)));
     };
     let text = characters(typed);
     let wrong = || MalformedXmlRpc(format!("`{}` is no {}", shortened(&text), typed.name));
     Ok(match typed.name.as_str() {
-        "i4" | "int" => Value::Int(text.trim().parse().map_err(|_| wrong())?),
+        "i4" | "int" => XmlRpcValue::Int(text.trim().parse().map_err(|_| wrong())?),
         "boolean" => match text.trim() {
-            "0" => Value::Bool(false),
-            "1" => Value::Bool(true),
+            "0" => XmlRpcValue::Bool(false),
+            "1" => XmlRpcValue::Bool(true),
             _ => return Err(wrong()),
         },
-        "string" => Value::Text(text),
-        "double" => Value::Double(text.trim().parse().map_err(|_| wrong())?),
-        "dateTime.iso8601" => Value::Time(text.trim().to_owned()),
+        "string" => XmlRpcValue::Text(text),
+        "double" => XmlRpcValue::Double(text.trim().parse().map_err(|_| wrong())?),
+        "dateTime.iso8601" => XmlRpcValue::Time(text.trim().to_owned()),
         "base64" => {
             let digits: Vec<u8> = text.bytes().filter(|byte| !byte.is_ascii_whitespace()).collect();
-            Value::Binary(STANDARD.decode(digits).map_err(|_| wrong())?)
+            XmlRpcValue::Binary(STANDARD.decode(digits).map_err(|_| wrong())?)
         }
         "array" => {
             let data = child(typed, "data")?;
-            Value::List(data.named("value").map(value).collect::<Result<_, _>>()?)
+            XmlRpcValue::List(data.named("value").map(value).collect::<Result<_, _>>()?)
         }
         "struct" => {
             let mut members = BTreeMap::new();
@@ -116,7 +116,7 @@ fn value(element: &Element) -> Result<Value, MalformedXmlRpc> {
                 let name = characters(child(member, "name")?);
                 members.insert(name, value(child(member, "value")?)?);
             }
-            Value::Struct(members)
+            XmlRpcValue::Struct(members)
         }
         // Python's writer has it for `None`, which ROS 1 does not use.
         "nil" => return Err(MalformedXmlRpc("ROS 1 has no value <nil>".into())),
@@ -147,7 +147,7 @@ mod tests {
     use proptest::prelude::*;
 
     #[track_caller]
-    fn check(written: &str, expected: Value) {
+    fn check(written: &str, expected: XmlRpcValue) {
         let body = format!(
             "<?xml version='1.0'?><methodResponse><params><param><value>{written}</value></param>\
              </params></methodResponse>"
@@ -157,22 +157,22 @@ mod tests {
 
     #[test]
     fn every_type_is_read() {
-        check("<i4>-7</i4>", Value::Int(-7));
-        check("<int> 7 </int>", Value::Int(7));
-        check("<boolean>1</boolean>", Value::Bool(true));
-        check("plain &lt; text", Value::from("plain < text"));
-        check("<string> kept </string>", Value::from(" kept "));
-        check("<string></string>", Value::from(""));
-        check("", Value::from(""));
-        check("<double>-1.5</double>", Value::Double(-1.5));
-        check("<base64>AQID\n</base64>", Value::Binary(vec![1, 2, 3]));
+        check("<i4>-7</i4>", XmlRpcValue::Int(-7));
+        check("<int> 7 </int>", XmlRpcValue::Int(7));
+        check("<boolean>1</boolean>", XmlRpcValue::Bool(true));
+        check("plain &lt; text", XmlRpcValue::from("plain < text"));
+        check("<string> kept </string>", XmlRpcValue::from(" kept "));
+        check("<string></string>", XmlRpcValue::from(""));
+        check("", XmlRpcValue::from(""));
+        check("<double>-1.5</double>", XmlRpcValue::Double(-1.5));
+        check("<base64>AQID\n</base64>", XmlRpcValue::Binary(vec![1, 2, 3]));
         check(
             "<array><data><value><i4>1</i4></value><value>b</value></data></array>",
-            Value::List(vec![Value::Int(1), Value::from("b")]),
+            XmlRpcValue::List(vec![XmlRpcValue::Int(1), XmlRpcValue::from("b")]),
         );
         check(
             "<struct><member><name>a</name><value><i4>1</i4></value></member></struct>",
-            Value::Struct([("a".to_owned(), Value::Int(1))].into()),
+            XmlRpcValue::Struct([("a".to_owned(), XmlRpcValue::Int(1))].into()),
         );
     }
 
@@ -195,22 +195,22 @@ mod tests {
 
     #[test]
     fn a_fault_is_an_error() {
-        let fault = Fault { code: -1, text: "no <such> method".into() };
+        let fault = RpcFault { code: -1, text: "no <such> method".into() };
         assert_eq!(read_response(write_fault(&fault).as_bytes()), Ok(Err(fault)));
     }
 
-    fn any_value() -> impl Strategy<Value = Value> {
+    fn any_value() -> impl Strategy<Value = XmlRpcValue> {
         let leaf = prop_oneof![
-            any::<i32>().prop_map(Value::Int),
-            any::<bool>().prop_map(Value::Bool),
-            "[ -~\n\u{e4}]{0,20}".prop_map(Value::Text),
-            (-1e12..1e12).prop_map(Value::Double),
-            proptest::collection::vec(any::<u8>(), 0..20).prop_map(Value::Binary),
+            any::<i32>().prop_map(XmlRpcValue::Int),
+            any::<bool>().prop_map(XmlRpcValue::Bool),
+            "[ -~\n\u{e4}]{0,20}".prop_map(XmlRpcValue::Text),
+            (-1e12..1e12).prop_map(XmlRpcValue::Double),
+            proptest::collection::vec(any::<u8>(), 0..20).prop_map(XmlRpcValue::Binary),
         ];
         leaf.prop_recursive(4, 40, 6, |inner| {
             prop_oneof![
-                proptest::collection::vec(inner.clone(), 0..6).prop_map(Value::List),
-                proptest::collection::btree_map("[a-z]{1,6}", inner, 0..6).prop_map(Value::Struct),
+                proptest::collection::vec(inner.clone(), 0..6).prop_map(XmlRpcValue::List),
+                proptest::collection::btree_map("[a-z]{1,6}", inner, 0..6).prop_map(XmlRpcValue::Struct),
             ]
         })
     }
@@ -218,7 +218,7 @@ mod tests {
     proptest! {
         #[test]
         fn what_is_written_is_read_again(params in proptest::collection::vec(any_value(), 0..4)) {
-            let call = Call { method: "setParam".into(), params };
+            let call = RpcCall { method: "setParam".into(), params };
             prop_assert_eq!(read_call(write_call(&call).as_bytes()), Ok(call.clone()));
             for value in call.params {
                 let body = write_response(&value);

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 /// A value of XML-RPC.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Value {
+pub enum XmlRpcValue {
     /// `i4` or `int`.
     Int(i32),
     /// `boolean`.
@@ -18,12 +18,12 @@ pub enum Value {
     /// `base64`.
     Binary(Vec<u8>),
     /// `array`.
-    List(Vec<Value>),
+    List(Vec<XmlRpcValue>),
     /// `struct`.
-    Struct(BTreeMap<String, Value>),
+    Struct(BTreeMap<String, XmlRpcValue>),
 }
 
-impl Value {
+impl XmlRpcValue {
     /// The text; none for other values.
     #[must_use]
     pub fn text(&self) -> Option<&str> {
@@ -67,37 +67,37 @@ impl Value {
     }
 }
 
-impl From<&str> for Value {
+impl From<&str> for XmlRpcValue {
     fn from(text: &str) -> Self {
         Self::Text(text.to_owned())
     }
 }
 
-impl From<String> for Value {
+impl From<String> for XmlRpcValue {
     fn from(text: String) -> Self {
         Self::Text(text)
     }
 }
 
-impl From<f64> for Value {
+impl From<f64> for XmlRpcValue {
     fn from(number: f64) -> Self {
         Self::Double(number)
     }
 }
 
-impl From<i32> for Value {
+impl From<i32> for XmlRpcValue {
     fn from(int: i32) -> Self {
         Self::Int(int)
     }
 }
 
-impl From<bool> for Value {
+impl From<bool> for XmlRpcValue {
     fn from(is_true: bool) -> Self {
         Self::Bool(is_true)
     }
 }
 
-impl<T: Into<Self>> From<Vec<T>> for Value {
+impl<T: Into<Self>> From<Vec<T>> for XmlRpcValue {
     fn from(list: Vec<T>) -> Self {
         Self::List(list.into_iter().map(Into::into).collect())
     }

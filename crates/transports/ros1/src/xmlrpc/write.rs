@@ -5,13 +5,13 @@ use std::fmt::Write as _;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 
-use super::{Call, Fault, Value};
+use super::{RpcCall, RpcFault, XmlRpcValue};
 
 const FRONT: &str = "<?xml version=\"1.0\"?>\n";
 
 /// Text of a request.
 #[must_use]
-pub fn write_call(call: &Call) -> String {
+pub fn write_call(call: &RpcCall) -> String {
     let mut out = format!("{FRONT}<methodCall><methodName>");
     escape(&mut out, &call.method);
     out.push_str("</methodName><params>");
@@ -26,7 +26,7 @@ pub fn write_call(call: &Call) -> String {
 
 /// Text of a response.
 #[must_use]
-pub fn write_response(result: &Value) -> String {
+pub fn write_response(result: &XmlRpcValue) -> String {
     let mut out = format!("{FRONT}<methodResponse><params><param>");
     value(&mut out, result);
     out.push_str("</param></params></methodResponse>\n");
@@ -35,45 +35,45 @@ pub fn write_response(result: &Value) -> String {
 
 /// Text of a response that is a fault.
 #[must_use]
-pub fn write_fault(fault: &Fault) -> String {
+pub fn write_fault(fault: &RpcFault) -> String {
     let members = [
-        ("faultCode".to_owned(), Value::Int(fault.code)),
-        ("faultString".to_owned(), Value::Text(fault.text.clone())),
+        ("faultCode".to_owned(), XmlRpcValue::Int(fault.code)),
+        ("faultString".to_owned(), XmlRpcValue::Text(fault.text.clone())),
     ];
     let mut out = format!("{FRONT}<methodResponse><fault>");
-    value(&mut out, &Value::Struct(members.into()));
+    value(&mut out, &XmlRpcValue::Struct(members.into()));
     out.push_str("</fault></methodResponse>\n");
     out
 }
 
-fn value(out: &mut String, one: &Value) {
+fn value(out: &mut String, one: &XmlRpcValue) {
     out.push_str("<value>");
     match one {
-        Value::Int(int) => _ = write!(out, "<i4>{int}</i4>"),
-        Value::Bool(is_true) => _ = write!(out, "<boolean>{}</boolean>", u8::from(*is_true)),
-        Value::Text(text) => {
+        XmlRpcValue::Int(int) => _ = write!(out, "<i4>{int}</i4>"),
+        XmlRpcValue::Bool(is_true) => _ = write!(out, "<boolean>{}</boolean>", u8::from(*is_true)),
+        XmlRpcValue::Text(text) => {
             out.push_str("<string>");
             escape(out, text);
             out.push_str("</string>");
         }
         // Without an exponent, which XML-RPC does not have.
-        Value::Double(number) => _ = write!(out, "<double>{number}</double>"),
-        Value::Time(time) => {
+        XmlRpcValue::Double(number) => _ = write!(out, "<double>{number}</double>"),
+        XmlRpcValue::Time(time) => {
             out.push_str("<dateTime.iso8601>");
             escape(out, time);
             out.push_str("</dateTime.iso8601>");
         }
-        Value::Binary(bytes) => {
+        XmlRpcValue::Binary(bytes) => {
             out.push_str("<base64>");
             out.push_str(&STANDARD.encode(bytes));
             out.push_str("</base64>");
         }
-        Value::List(list) => {
+        XmlRpcValue::List(list) => {
             out.push_str("<array><data>");
             list.iter().for_each(|one| value(out, one));
             out.push_str("</data></array>");
         }
-        Value::Struct(members) => {
+        XmlRpcValue::Struct(members) => {
             out.push_str("<struct>");
             for (name, member) in members {
                 out.push_str("<member><name>");

@@ -1,13 +1,13 @@
 //! Parameters of a ROS 1 launch on the parameter server, where programs of ROS 1 read them.
 
 use periplus_launch::{LaunchPlan, PlanParameters, What};
-use periplus_ros1::Value;
+use periplus_ros1::XmlRpcValue;
 use serde_json::Value as Json;
 
 /// Parameters of the plan by their full names: those of the server, and those of each node in its namespace.
-pub(super) fn parameters(plan: &LaunchPlan) -> Vec<(String, Value)> {
+pub(super) fn parameters(plan: &LaunchPlan) -> Vec<(String, XmlRpcValue)> {
     let global = plan.parameters.iter().map(|(name, value)| (name.clone(), value_of(value)));
-    let mut all: Vec<(String, Value)> = global.collect();
+    let mut all: Vec<(String, XmlRpcValue)> = global.collect();
     for step in &plan.steps {
         let What::Node(node) = &step.what else { continue };
         let identity = &node.identity;
@@ -24,18 +24,18 @@ pub(super) fn parameters(plan: &LaunchPlan) -> Vec<(String, Value)> {
     all
 }
 
-fn value_of(json: &Json) -> Value {
+fn value_of(json: &Json) -> XmlRpcValue {
     match json {
-        Json::Null => Value::Text(String::new()),
-        Json::Bool(value) => Value::Bool(*value),
+        Json::Null => XmlRpcValue::Text(String::new()),
+        Json::Bool(value) => XmlRpcValue::Bool(*value),
         Json::Number(number) => match number.as_i64().and_then(|one| i32::try_from(one).ok()) {
-            Some(number) => Value::Int(number),
-            None => Value::Double(number.as_f64().unwrap_or_default()),
+            Some(number) => XmlRpcValue::Int(number),
+            None => XmlRpcValue::Double(number.as_f64().unwrap_or_default()),
         },
-        Json::String(text) => Value::Text(text.clone()),
-        Json::Array(list) => Value::List(list.iter().map(value_of).collect()),
+        Json::String(text) => XmlRpcValue::Text(text.clone()),
+        Json::Array(list) => XmlRpcValue::List(list.iter().map(value_of).collect()),
         Json::Object(members) => {
-            Value::Struct(members.iter().map(|(name, one)| (name.clone(), value_of(one))).collect())
+            XmlRpcValue::Struct(members.iter().map(|(name, one)| (name.clone(), value_of(one))).collect())
         }
     }
 }
@@ -47,12 +47,12 @@ mod tests {
 
     #[test]
     fn numbers_keep_their_kind() {
-        assert_eq!(value_of(&json!(3)), Value::Int(3));
-        assert_eq!(value_of(&json!(3.0)), Value::Double(3.0));
-        assert_eq!(value_of(&json!(3_000_000_000_i64)), Value::Double(3e9));
+        assert_eq!(value_of(&json!(3)), XmlRpcValue::Int(3));
+        assert_eq!(value_of(&json!(3.0)), XmlRpcValue::Double(3.0));
+        assert_eq!(value_of(&json!(3_000_000_000_i64)), XmlRpcValue::Double(3e9));
         assert_eq!(
             value_of(&json!({"a": [true]})),
-            Value::Struct([("a".to_owned(), Value::List(vec![Value::Bool(true)]))].into())
+            XmlRpcValue::Struct([("a".to_owned(), XmlRpcValue::List(vec![XmlRpcValue::Bool(true)]))].into())
         );
     }
 }
