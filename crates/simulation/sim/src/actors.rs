@@ -45,9 +45,9 @@ impl RunningActor {
             model.links = figure_links(&actor.name);
         }
         model.links.extend(actor.links.iter().cloned());
-        let start = script.motion_at(0.0).map_or(actor.world_from_actor, |motion| {
-            motion.pose * actor.world_from_actor
-        });
+        let start = script
+            .motion_at(0.0)
+            .map_or(actor.world_from_actor, |motion| motion.pose * actor.world_from_actor);
         let is_at_hip = start.translation.z >= MIN_HIP_ORIGIN_M;
         Self {
             name: actor.name.clone(),

@@ -70,9 +70,8 @@ fn range_at(scans: &Mailbox<LaserScan>, time_s: f64) -> f64 {
 
 #[test]
 fn the_leg_of_one_who_stands_is_seen_by_lidar_and_camera() {
-    let (mut simulation, codes) = simulate(&format!(
-        "<actor name='guard'><pose>3 0 0 0 0 0</pose>{SKIN}</actor>"
-    ));
+    let (mut simulation, codes) =
+        simulate(&format!("<actor name='guard'><pose>3 0 0 0 0 0</pose>{SKIN}</actor>"));
     assert!(codes.contains(&"actor-figure"), "{codes:?}");
     let scans = scans(&simulation);
     run_to(&mut simulation, 500_000_000);
@@ -113,7 +112,7 @@ fn the_leg_of_one_who_walks_is_where_its_swing_has_it() {
     let range_m = range_at(&scans, 2.0);
     assert!((range_m - expected_m).abs() < 1e-3, "{range_m} {expected_m}");
     run_to(&mut simulation, 4_300_000_000);
-    // At the end it stands: the legs hang down.
+    // At the end it is at rest: the legs hang down.
     let range_m = range_at(&scans, 4.2);
     assert!((range_m - 6.93).abs() < 1e-5, "{range_m}");
     // A reset brings it back.
@@ -142,7 +141,10 @@ fn what_a_script_lacks_is_reported() {
         let (_, codes) = simulate(&format!("<actor name='a'>{SKIN}{content}</actor>"));
         assert!(codes.contains(&code), "{content}: {codes:?}");
     };
-    check("<script><trajectory><waypoint><time>0</time></waypoint></trajectory></script>", "actor-script");
+    check(
+        "<script><trajectory><waypoint><time>0</time></waypoint></trajectory></script>",
+        "actor-script",
+    );
     check(
         "<script><trajectory><waypoint><time>x</time><pose>0 0 0 0 0 0</pose></waypoint></trajectory></script>",
         "actor-script",

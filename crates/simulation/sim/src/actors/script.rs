@@ -9,8 +9,7 @@ use periplus_xml::Element;
 /// Reads the script of an actor: its trajectories in the order of the file. Waypoints that cannot be read are reported
 /// and left out.
 pub(crate) fn read(actor: &Actor, findings: &mut Diagnostics) -> ActorScript {
-    let mut script =
-        ActorScript { trajectories: Vec::new(), is_loop: true, delay_start_s: 0.0 };
+    let mut script = ActorScript { trajectories: Vec::new(), is_loop: true, delay_start_s: 0.0 };
     let Some(element) = actor.extra.iter().find(|element| element.local_name() == "script") else {
         return script;
     };
