@@ -12,6 +12,7 @@ mod barn;
 mod codegen;
 mod corpus;
 mod costmap;
+mod crowds;
 mod determinism;
 mod dist;
 mod docs;
@@ -228,6 +229,13 @@ enum Task {
         #[arg(long)]
         hours: Option<f64>,
     },
+    /// Print published experiments with people beside both models of crowds; with `--office` let 200 people and ten
+    /// robots walk in an office for half an hour
+    Crowds {
+        /// Run the office in place of the experiments
+        #[arg(long)]
+        office: bool,
+    },
     /// Generate the pictures of the documentation
     Pictures,
     /// Build or test the page in `viewer`, which needs Node
@@ -384,6 +392,7 @@ fn perform(task: &Task) -> Result<(), Failed> {
             every: *every,
             program: program.clone(),
         }),
+        Task::Crowds { office } => crowds::run_experiments(*office),
         Task::Soak { hours: Some(hours) } => soak::kbot(Some(*hours)),
         Task::Soak { hours: None } => costmap::soak().and_then(|()| soak::kbot(None)),
         Task::Barn { worlds, seeds, every, twice, jobs } => {

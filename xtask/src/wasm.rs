@@ -11,7 +11,7 @@ const TARGET: &str = "wasm32-unknown-unknown";
 
 /// Crates that stay free of threads, sockets and files where they are compiled for [`TARGET`]: those that the tab
 /// uses, and libraries that are useful in a page.
-const CRATES: [&str; 11] = [
+const CRATES: [&str; 12] = [
     "periplus-tab",
     "periplus-session",
     "periplus-sim",
@@ -19,6 +19,7 @@ const CRATES: [&str; 11] = [
     "periplus-web",
     "periplus-bags",
     "periplus-loader",
+    "periplus-crowds",
     "periplus-environments",
     "periplus-evaluation",
     "periplus-calibration",

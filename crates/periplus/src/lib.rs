@@ -135,6 +135,7 @@ pub use periplus_behavior_tree as behavior_tree;
 pub use periplus_calibration as calibration;
 pub use periplus_controllers as controllers;
 pub use periplus_costmap as costmap;
+pub use periplus_crowds as crowds;
 pub use periplus_diagnostics as diagnostics;
 pub use periplus_ekf as ekf;
 pub use periplus_environments as environments;

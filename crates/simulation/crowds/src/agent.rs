@@ -6,11 +6,11 @@ use crate::error::CrowdError;
 
 /// Number of an agent, in the order in which agents were added.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct AgentId(pub usize);
+pub struct PersonId(pub usize);
 
 /// Number of a goal, in the order in which goals were added.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct GoalId(pub usize);
+pub struct PersonGoalId(pub usize);
 
 /// Number of a group, in the order in which groups were added.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -18,7 +18,7 @@ pub struct GroupId(pub usize);
 
 /// Body and pace of an agent.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AgentSettings {
+pub struct PersonSettings {
     /// Position \[m\].
     pub position: DVec2,
     /// Radius of the body (default 0.2 m: shoulders of 0.45 m, a chest of 0.3 m) \[m\].
@@ -29,7 +29,7 @@ pub struct AgentSettings {
     pub max_speed_m_per_s: f64,
 }
 
-impl AgentSettings {
+impl PersonSettings {
     /// Agent of the default size and pace at a position \[m\].
     #[must_use]
     pub fn at(position: DVec2) -> Self {
@@ -45,7 +45,11 @@ impl AgentSettings {
 
     pub(crate) fn check(&self) -> Result<(), CrowdError> {
         let check = |name, value: f64, low: f64, high: f64| {
-            if (low..=high).contains(&value) { Ok(()) } else { Err(CrowdError::Agent(name, value)) }
+            if (low..=high).contains(&value) {
+                Ok(())
+            } else {
+                Err(CrowdError::Person(name, value))
+            }
         };
         check("position x", self.position.x, -1e6, 1e6)?;
         check("position y", self.position.y, -1e6, 1e6)?;
@@ -57,7 +61,7 @@ impl AgentSettings {
 
 /// Plan of an agent or a group.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Plan {
+pub enum PersonPlan {
     /// Stay at the start; step aside for others.
     Stand,
     /// Walk in a direction (a unit vector) for ever, as on the corridors of experiments.
@@ -65,8 +69,8 @@ pub enum Plan {
     /// Visit goals in their order.
     Visit {
         /// The goals.
-        goals: Vec<GoalId>,
-        /// True to start again after the last; otherwise stand there.
+        goals: Vec<PersonGoalId>,
+        /// True to start again after the last; otherwise remain there.
         repeats: bool,
     },
     /// Visit all goals of the crowd at random, for ever.
@@ -75,8 +79,8 @@ pub enum Plan {
 
 /// State of an agent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum AgentState {
-    /// On its way.
+pub enum PersonState {
+    /// Walking to a goal.
     Walking,
     /// At a goal, for a while.
     Waiting,
@@ -86,7 +90,7 @@ pub enum AgentState {
     Standing,
 }
 
-impl AgentState {
+impl PersonState {
     /// Name in messages and files.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -101,19 +105,19 @@ impl AgentState {
 
 /// Agent of a crowd.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Agent {
-    pub(crate) settings: AgentSettings,
+pub struct Person {
+    pub(crate) settings: PersonSettings,
     pub(crate) group: usize,
     pub(crate) position: DVec2,
     pub(crate) velocity: DVec2,
     pub(crate) heading: DVec2,
-    pub(crate) state: AgentState,
+    pub(crate) state: PersonState,
     pub(crate) walked_m: f64,
     /// Velocity without others in this step \[m/s\].
     pub(crate) preferred: DVec2,
     /// The same with regard to the people ahead \[m/s\].
     pub(crate) adapted: DVec2,
-    /// True if somebody directly ahead comes towards the agent or does not avoid it.
+    /// True if another agent directly ahead comes towards the agent or does not avoid it.
     pub(crate) is_opposed: bool,
     /// Point of the route to walk to.
     pub(crate) target: Option<DVec2>,
@@ -125,15 +129,15 @@ pub struct Agent {
     pub(crate) still_s: f64,
 }
 
-impl Agent {
-    pub(crate) fn new(settings: AgentSettings, group: usize) -> Self {
+impl Person {
+    pub(crate) fn new(settings: PersonSettings, group: usize) -> Self {
         Self {
             settings,
             group,
             position: settings.position,
             velocity: DVec2::ZERO,
             heading: DVec2::X,
-            state: AgentState::Standing,
+            state: PersonState::Standing,
             walked_m: 0.0,
             preferred: DVec2::ZERO,
             adapted: DVec2::ZERO,
@@ -147,7 +151,7 @@ impl Agent {
 
     /// Body and pace; the position in it is that of the start.
     #[must_use]
-    pub fn settings(&self) -> &AgentSettings {
+    pub fn settings(&self) -> &PersonSettings {
         &self.settings
     }
 
@@ -171,7 +175,7 @@ impl Agent {
 
     /// State.
     #[must_use]
-    pub fn state(&self) -> AgentState {
+    pub fn state(&self) -> PersonState {
         self.state
     }
 
@@ -187,7 +191,7 @@ impl Agent {
         self.still_s
     }
 
-    /// Radius of the body; who is blocked turns sideways \[m\].
+    /// Radius of the body; blocked people turn sideways \[m\].
     pub(crate) fn body_radius_m(&self) -> f64 {
         /// Time without progress after which people begin to turn sideways \[s\].
         const TURN_AFTER_S: f64 = 2.0;

@@ -6,7 +6,9 @@ mod sight;
 
 use glam::DVec2;
 
-use crate::agent::{Agent, AgentId, AgentSettings, AgentState, GoalId, GroupId, Plan};
+use crate::agent::{
+    GroupId, Person, PersonGoalId, PersonId, PersonPlan, PersonSettings, PersonState,
+};
 use crate::door::{Door, DoorId, DoorRecord};
 use crate::error::CrowdError;
 use crate::floor::Floor;
@@ -37,9 +39,9 @@ pub struct CrowdSettings {
     pub threads: usize,
 }
 
-/// Place that agents visit.
+/// Area that agents visit.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Goal {
+pub struct PersonGoal {
     /// Centre \[m\].
     pub centre: DVec2,
     /// Distance from the centre at which the goal is reached (default 0.5 m) \[m\].
@@ -48,7 +50,7 @@ pub struct Goal {
     pub stay_s: [f64; 2],
 }
 
-impl Goal {
+impl PersonGoal {
     /// Goal that is passed without a stay.
     #[must_use]
     pub fn at(centre: DVec2) -> Self {
@@ -58,7 +60,7 @@ impl Goal {
 
 #[derive(Clone, Debug)]
 struct GoalRecord {
-    goal: Goal,
+    goal: PersonGoal,
     route: Route,
 }
 
@@ -66,7 +68,7 @@ struct GoalRecord {
 #[derive(Clone, Debug)]
 struct Party {
     members: Vec<usize>,
-    plan: Plan,
+    plan: PersonPlan,
     phase: Phase,
     /// Number of goals that were chosen.
     visits: u64,
@@ -78,9 +80,9 @@ struct Party {
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Phase {
     /// On the way to a goal, or along a direction.
-    Walking(Option<GoalId>),
+    Walking(Option<PersonGoalId>),
     /// At a goal until a time.
-    Staying(GoalId, f64),
+    Staying(PersonGoalId, f64),
     /// At the end of the plan.
     Done,
 }
@@ -92,7 +94,7 @@ pub struct Crowd {
     settings: CrowdSettings,
     goals: Vec<GoalRecord>,
     doors: Vec<DoorRecord>,
-    agents: Vec<Agent>,
+    agents: Vec<Person>,
     parties: Vec<Party>,
     obstacles: Vec<MovingObstacle>,
     time_s: f64,
@@ -130,11 +132,11 @@ impl Crowd {
     /// # Errors
     ///
     /// The goal is in a wall or outside of the floor.
-    pub fn add_goal(&mut self, goal: Goal) -> Result<GoalId, CrowdError> {
+    pub fn add_goal(&mut self, goal: PersonGoal) -> Result<PersonGoalId, CrowdError> {
         let route = Route::new(&self.floor, goal.centre, goal.radius_m)
             .ok_or(CrowdError::GoalInWall(goal.centre.to_array()))?;
         self.goals.push(GoalRecord { goal, route });
-        Ok(GoalId(self.goals.len() - 1))
+        Ok(PersonGoalId(self.goals.len() - 1))
     }
 
     /// Adds a door.
@@ -159,9 +161,13 @@ impl Crowd {
     /// # Errors
     ///
     /// A number of the agent is out of its range, or the plan names goals that do not exist.
-    pub fn add_agent(&mut self, agent: AgentSettings, plan: Plan) -> Result<AgentId, CrowdError> {
+    pub fn add_agent(
+        &mut self,
+        agent: PersonSettings,
+        plan: PersonPlan,
+    ) -> Result<PersonId, CrowdError> {
         self.add_group(&[agent], plan)?;
-        Ok(AgentId(self.agents.len() - 1))
+        Ok(PersonId(self.agents.len() - 1))
     }
 
     /// Adds a group: agents that walk together by one plan. Their numbers follow each other.
@@ -171,24 +177,24 @@ impl Crowd {
     /// As [`Crowd::add_agent`]; nothing is added then.
     pub fn add_group(
         &mut self,
-        agents: &[AgentSettings],
-        plan: Plan,
+        agents: &[PersonSettings],
+        plan: PersonPlan,
     ) -> Result<GroupId, CrowdError> {
         for agent in agents {
             agent.check()?;
         }
         match &plan {
-            Plan::Visit { goals, .. } => {
+            PersonPlan::Visit { goals, .. } => {
                 if let Some(goal) = goals.iter().find(|goal| goal.0 >= self.goals.len()) {
                     return Err(CrowdError::Goal(goal.0));
                 }
             }
-            Plan::Wander if self.goals.is_empty() => return Err(CrowdError::NoGoals),
-            Plan::Wander | Plan::Stand | Plan::Direction(_) => {}
+            PersonPlan::Wander if self.goals.is_empty() => return Err(CrowdError::NoGoals),
+            PersonPlan::Wander | PersonPlan::Stand | PersonPlan::Direction(_) => {}
         }
         let group = self.parties.len();
         let first = self.agents.len();
-        self.agents.extend(agents.iter().map(|agent| Agent::new(*agent, group)));
+        self.agents.extend(agents.iter().map(|agent| Person::new(*agent, group)));
         let members = (first..self.agents.len()).collect();
         self.parties.push(Party { members, plan, phase: Phase::Done, visits: 0, chosen_at_s: 0.0 });
         self.start(group);
@@ -214,26 +220,26 @@ impl Crowd {
 
     /// Returns the agents, in the order in which they were added.
     #[must_use]
-    pub fn agents(&self) -> &[Agent] {
+    pub fn agents(&self) -> &[Person] {
         &self.agents
     }
 
     /// Returns an agent.
     #[must_use]
-    pub fn agent(&self, agent: AgentId) -> &Agent {
+    pub fn agent(&self, agent: PersonId) -> &Person {
         &self.agents[agent.0]
     }
 
     /// Returns the group of an agent and the agents in it.
     #[must_use]
-    pub fn group_of(&self, agent: AgentId) -> (GroupId, &[usize]) {
+    pub fn group_of(&self, agent: PersonId) -> (GroupId, &[usize]) {
         let group = self.agents[agent.0].group;
         (GroupId(group), &self.parties[group].members)
     }
 
     /// Number of goals that an agent's plan has set out for.
     #[must_use]
-    pub fn visits(&self, agent: AgentId) -> usize {
+    pub fn visits(&self, agent: PersonId) -> usize {
         usize::try_from(self.parties[self.agents[agent.0].group].visits).unwrap_or(usize::MAX)
     }
 
@@ -331,7 +337,7 @@ impl Crowd {
                 agent.anchor.x += wrapped - agent.position.x;
                 agent.position.x = wrapped;
             }
-            if agent.state != AgentState::Walking
+            if agent.state != PersonState::Walking
                 || agent.anchor.distance(agent.position) > STILL_RADIUS_M
             {
                 agent.anchor = agent.position;

@@ -22,7 +22,7 @@ pub struct Door {
 pub enum DoorControl {
     /// Opened and closed by the program.
     Manual,
-    /// Opens a while after somebody came within a range, and closes when nobody is.
+    /// Opens a while after a person came within a range, and closes when the range is empty.
     Automatic {
         /// Distance from the leaf \[m\].
         range_m: f64,

@@ -13,7 +13,7 @@ pub enum CrowdError {
     /// The period of a floor is not a positive number \[m\].
     Period(f64),
     /// A number of an agent is out of its range: the name of the field and the value.
-    Agent(&'static str, f64),
+    Person(&'static str, f64),
     /// A plan names a goal with this number, which does not exist.
     Goal(usize),
     /// No path leads to the goal from anywhere: its position \[m\].
@@ -39,7 +39,7 @@ impl fmt::Display for CrowdError {
                     "the period of a floor must be a positive length in metres, not {period_m}"
                 )
             }
-            Self::Agent(field, value) => write!(f, "`{field}` of an agent must not be {value}"),
+            Self::Person(field, value) => write!(f, "`{field}` of an agent must not be {value}"),
             Self::Goal(number) => {
                 write!(f, "goal {number} does not exist: add it before its agents")
             }

@@ -9,7 +9,7 @@ mod lanes;
 mod plane;
 mod single_file;
 
-pub use bottleneck::{BottleneckRun, KRETZ_SPECIFIC_FLOW_PER_M_S, SEYFRIED_FLOW_PER_S, bottleneck};
+pub use bottleneck::{BottleneckRun, KRETZ_SPECIFIC_FLOW_PER_M_S, bottleneck, seyfried_flow_per_s};
 pub use lanes::{LanesRun, lanes};
 pub use plane::{plane_speed_m_per_s, weidmann_speed_m_per_s};
 pub use single_file::{
@@ -18,7 +18,7 @@ pub use single_file::{
 
 use periplus_geometry::Stream;
 
-use crate::agent::AgentSettings;
+use crate::agent::PersonSettings;
 use glam::DVec2;
 
 /// Free speed of people and its standard deviation (Weidmann 1993) \[m/s\].
@@ -29,8 +29,8 @@ const FREE_SPEED_M_PER_S: [f64; 2] = [1.34, 0.26];
 const STUDENT_SPEED_M_PER_S: [f64; 2] = [1.55, 0.18];
 
 /// Walker at a position, with a free speed from a normal distribution within two standard deviations.
-fn walker(position: DVec2, [mean, deviation]: [f64; 2], seed: u64, number: u64) -> AgentSettings {
+fn walker(position: DVec2, [mean, deviation]: [f64; 2], seed: u64, number: u64) -> PersonSettings {
     let mut stream = Stream::keyed(seed, "experiment walker", number);
     let free_speed = mean + deviation * stream.normal().clamp(-2.0, 2.0);
-    AgentSettings::at(position).with_speed(free_speed)
+    PersonSettings::at(position).with_speed(free_speed)
 }

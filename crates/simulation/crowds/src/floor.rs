@@ -14,7 +14,7 @@ const RESOLUTION_M: f64 = 0.1;
 const MARGIN_M: f64 = 1.0;
 
 /// Most cells of a floor: 400 m by 400 m.
-const MAX_CELLS: f64 = 1.6e7;
+const MAX_CELL_COUNT: f64 = 1.6e7;
 
 /// Clearance below which a cell is too narrow for a body: half the depth of a person, who turns sideways in narrow
 /// passages \[m\].
@@ -39,7 +39,7 @@ impl Floor {
         Self::with_period(walls, None)
     }
 
-    /// Floor that repeats along x after a length, as the corridors of experiments do: who leaves it at one end enters
+    /// Floor that repeats along x after a length, as the corridors of experiments do: agents that leave it at one end enter
     /// at the other \[m\]. Walls reach from 0 to the period.
     ///
     /// # Errors
@@ -66,7 +66,7 @@ impl Floor {
         }
         (low, high) = (low - MARGIN_M, high + MARGIN_M);
         let cells = ((high - low) / RESOLUTION_M).ceil();
-        if cells.x * cells.y > MAX_CELLS {
+        if cells.x * cells.y > MAX_CELL_COUNT {
             return Err(CrowdError::Size([high.x - low.x, high.y - low.y]));
         }
         #[expect(

@@ -51,7 +51,7 @@ mod tests {
         };
         assert_eq!(group_acceleration(group(0.4), ahead, ahead), DVec2::ZERO);
         assert_eq!(group_acceleration(group(0.6), ahead, ahead), DVec2::new(3.0, 0.0));
-        // One who is ahead turns the head by a quarter turn, slows down, and is attracted.
+        // A member ahead turns the head by a quarter turn, slows down, and is attracted.
         let behind = group_acceleration(group(-0.6), ahead, ahead);
         assert!(behind.distance(DVec2::new(-3.0 - 2.0, 0.0)) < 1e-12, "{behind}");
     }

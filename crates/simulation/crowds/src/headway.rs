@@ -15,10 +15,10 @@ use glam::DVec2;
 
 use crate::perception::{Neighbour, Perception};
 
-/// Distance at the side beyond which nobody is followed, as a part of the distance of two bodies in touch.
+/// Distance at the side beyond which people are not followed, as a part of the distance of two bodies in touch.
 const ASIDE_RATIO: f64 = 1.25;
 
-/// Distances to the side of the lines on which people look for a better way \[m\].
+/// Distances to the side of the lines on which people look for better progress \[m\].
 const SIDE_STEPS_M: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 
 /// Distance in which a side step is made \[m\].
@@ -27,21 +27,21 @@ const SIDE_STEP_LENGTH_M: f64 = 1.5;
 /// Gain of progress for which people leave their direction, as a part of the preferred speed per direction.
 const MIN_GAIN_RATIO: f64 = 0.04;
 
-/// People follow one who walks away at this part of its speed, however near: they start together. Below 0.9 queues flow
+/// People follow one that walks away at this part of its speed, however near: they start together. Below 0.9 queues flow
 /// through bottlenecks at two thirds of the published rates.
 const PURSUIT_RATIO: f64 = 0.95;
 
-/// Weight of the speed of those who are met: more than 1 turns people aside early.
+/// Weight of the speed of people that are met: more than 1 turns people aside early.
 const MET_RATIO: f64 = 2.0;
 
-/// Cosine of the headings below which somebody is met.
-const MET_COSINE: f64 = -0.5;
+/// Cosine of the headings below which another is met.
+const MET_COSINE_RATIO: f64 = -0.5;
 
 /// Others beyond this distance are not considered \[m\].
 const SIGHT_M: f64 = 5.0;
 
 /// Maximum number of others that are considered, the nearest first.
-const MAX_AHEAD: usize = 32;
+const MAX_AHEAD_COUNT: usize = 32;
 
 /// Law by which people keep a distance to the one ahead: `distance = standing + time * speed`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,21 +58,21 @@ impl Default for Headway {
     }
 }
 
-/// Somebody in the way.
+/// Person or robot ahead.
 #[derive(Clone, Copy)]
 struct Ahead {
     offset: DVec2,
     velocity: DVec2,
     /// Distance by which its surface is nearer than that of a person \[m\].
     bulge_m: f64,
-    /// Distance at the side beyond which it is not in the way \[m\].
+    /// Distance at the side beyond which it has no effect \[m\].
     aside_m: f64,
     /// Speed with which it comes towards the agent, zero if it is followed \[m/s\].
     met_m_per_s: f64,
 }
 
 impl Ahead {
-    /// Distance to keep for in a direction, and the speed of the approach; none where it is not in the way.
+    /// Distance to keep for in a direction, and the speed of the approach; none where it has no effect.
     fn in_direction(&self, from: DVec2, direction: DVec2) -> Option<f64> {
         let offset = self.offset - from;
         let along_m = offset.dot(direction);
@@ -91,7 +91,7 @@ impl Headway {
             return preferred;
         }
         let straight = preferred / speed;
-        let mut ahead = [None; MAX_AHEAD];
+        let mut ahead = [None; MAX_AHEAD_COUNT];
         let others = view.neighbours.iter().filter_map(|other| in_the_way(view, other, straight));
         for (slot, other) in ahead.iter_mut().zip(others) {
             *slot = Some(other);
@@ -121,7 +121,7 @@ impl Headway {
     }
 
     /// Greatest speed in a direction behind the people who are followed, and the one that is foreseen with regard to
-    /// those who are met too. People see the first in their way only \[m/s\].
+    /// those that are met too. People see the first ahead only \[m/s\].
     fn limits_m_per_s(self, ahead: &[Option<Ahead>], from: DVec2, direction: DVec2) -> [f64; 2] {
         let mut limits = [f64::INFINITY; 2];
         let mut nearest_m = f64::INFINITY;
@@ -141,12 +141,12 @@ impl Headway {
     }
 }
 
-/// Returns another agent as one to follow or to meet; none for those who are behind or follow the agent.
+/// Returns another agent as one to follow or to meet; none for those that are behind or follow the agent.
 fn in_the_way(view: &Perception<'_>, other: &Neighbour, straight: DVec2) -> Option<Ahead> {
     let along_m = other.offset.dot(straight);
     let towards = other.velocity.dot(straight);
-    let is_met = other.heading.dot(straight) < MET_COSINE && towards < 0.0;
-    // Where paths merge, the one who is farther behind follows.
+    let is_met = other.heading.dot(straight) < MET_COSINE_RATIO && towards < 0.0;
+    // Where paths merge, the one farther behind follows.
     let follows = other.heading.dot(-other.offset) > along_m && !is_met;
     if follows || other.offset.length_squared() > SIGHT_M * SIGHT_M {
         return None;
@@ -216,7 +216,7 @@ mod tests {
         check(other(0.2, 0.0, 0.4), 0.38);
         // At the side by 0.6 of the range the distance counts 1 / 0.8: (0.85 - 0.22) / 0.89.
         check(other(0.68, 0.3, 0.3), 0.63 / 0.89);
-        // Nobody is followed who is far at the side, behind, or comes towards the agent.
+        // People far at the side, behind, or coming towards the agent are not followed.
         check(other(0.68, 0.5, 0.3), 1.0);
         check(other(-0.68, 0.0, 0.3), 1.0);
         check(other(0.68, 0.0, -0.3), 1.0);

@@ -5,7 +5,7 @@
 //! ([`OrcaParams`]). Robots are given as [`MovingObstacle`]s before each step. The same settings and seed give the same
 //! bytes at any number of threads.
 //!
-//! [`ActorScript`] is the other kind of people: those that follow waypoints, whatever is in their way.
+//! [`ActorScript`] is the other kind of people: those that follow waypoints, through everything.
 //!
 //! ```
 //! use periplus_crowds::*;
@@ -13,9 +13,9 @@
 //! let floor = Floor::new(Wall::rectangle([0.0, 0.0], [10.0, 4.0]).to_vec())?;
 //! let model = SteeringModel::named("orca").expect("one of the names");
 //! let mut crowd = Crowd::new(floor, CrowdSettings { model, seed: 1, threads: 1 });
-//! let goal = crowd.add_goal(Goal::at(DVec2::new(9.0, 2.0)))?;
-//! let plan = Plan::Visit { goals: vec![goal], repeats: false };
-//! let agent = crowd.add_agent(AgentSettings::at(DVec2::new(1.0, 2.0)), plan)?;
+//! let goal = crowd.add_goal(PersonGoal::at(DVec2::new(9.0, 2.0)))?;
+//! let plan = PersonPlan::Visit { goals: vec![goal], repeats: false };
+//! let agent = crowd.add_agent(PersonSettings::at(DVec2::new(1.0, 2.0)), plan)?;
 //! crowd.set_obstacles(vec![MovingObstacle::disc(DVec2::new(5.0, 2.0), 0.3, DVec2::ZERO)]);
 //! for _ in 0..100 {
 //!     crowd.step(0.1);
@@ -44,8 +44,8 @@ mod script;
 mod social_force;
 mod wall;
 
-pub use agent::{Agent, AgentId, AgentSettings, AgentState, GoalId, GroupId, Plan};
-pub use crowd::{Crowd, CrowdSettings, Goal};
+pub use agent::{GroupId, Person, PersonGoalId, PersonId, PersonPlan, PersonSettings, PersonState};
+pub use crowd::{Crowd, CrowdSettings, PersonGoal};
 pub use door::{Door, DoorControl, DoorId};
 pub use error::CrowdError;
 pub use floor::Floor;

@@ -6,7 +6,7 @@ use glam::DVec2;
 const CELL_M: f64 = 1.0;
 
 /// Most cells of the index along one axis; larger floors get larger cells.
-const MAX_CELLS_PER_AXIS: usize = 1024;
+const MAX_AXIS_CELL_COUNT: usize = 1024;
 
 /// Wall without thickness between two points \[m\].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,7 +75,7 @@ impl WallIndex {
             (low, high) = (DVec2::ZERO, DVec2::ZERO);
         }
         #[expect(clippy::cast_precision_loss, reason = "a small constant")]
-        let cell_m = CELL_M.max((high - low).max_element() / (MAX_CELLS_PER_AXIS - 1) as f64);
+        let cell_m = CELL_M.max((high - low).max_element() / (MAX_AXIS_CELL_COUNT - 1) as f64);
         let mut index = Self {
             walls,
             low,

@@ -1,8 +1,9 @@
 //! Goals, groups, doors and robots, each with a crowd of few people.
+#![allow(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
 
 use periplus_crowds::{
-    AgentId, AgentSettings, AgentState, Crowd, CrowdError, CrowdSettings, DVec2, Door, DoorControl,
-    Floor, Goal, MovingObstacle, Plan, SteeringModel, Wall,
+    Crowd, CrowdError, CrowdSettings, DVec2, Door, DoorControl, Floor, MovingObstacle, PersonGoal,
+    PersonId, PersonPlan, PersonSettings, PersonState, SteeringModel, Wall,
 };
 
 /// Two rooms of 5 m by 4 m with a door from y = 1.5 m to 2.5 m between them.
@@ -19,24 +20,24 @@ fn leaf() -> Wall {
     Wall::new([5.0, 1.5], [5.0, 2.5])
 }
 
-fn at(x: f64, y: f64) -> AgentSettings {
-    AgentSettings::at(DVec2::new(x, y))
+fn at(x: f64, y: f64) -> PersonSettings {
+    PersonSettings::at(DVec2::new(x, y))
 }
 
 #[test]
 fn people_queue_in_front_of_a_closed_door_and_pass_when_it_opens() {
     for name in SteeringModel::NAMES {
         let mut crowd = rooms(name);
-        let goal = crowd.add_goal(Goal::at(DVec2::new(8.0, 2.0))).unwrap();
+        let goal = crowd.add_goal(PersonGoal::at(DVec2::new(8.0, 2.0))).unwrap();
         let door =
             crowd.add_door(Door { leaf: leaf(), is_open: false, control: DoorControl::Manual });
         for y in [1.0, 2.0, 3.0] {
-            let plan = Plan::Visit { goals: vec![goal], repeats: false };
+            let plan = PersonPlan::Visit { goals: vec![goal], repeats: false };
             crowd.add_agent(at(1.0, y), plan).unwrap();
         }
         crowd.step(20.0);
         for agent in crowd.agents() {
-            assert_eq!(agent.state(), AgentState::Queueing, "{name}");
+            assert_eq!(agent.state(), PersonState::Queueing, "{name}");
             assert!(agent.position().x < 4.8 && agent.velocity().length() < 0.1, "{name}");
         }
         crowd.set_door_open(door, true);
@@ -48,10 +49,10 @@ fn people_queue_in_front_of_a_closed_door_and_pass_when_it_opens() {
 #[test]
 fn an_automatic_door_opens_for_people_and_closes_behind_them() {
     let mut crowd = rooms("orca");
-    let goal = crowd.add_goal(Goal::at(DVec2::new(9.0, 2.0))).unwrap();
+    let goal = crowd.add_goal(PersonGoal::at(DVec2::new(9.0, 2.0))).unwrap();
     let control = DoorControl::Automatic { range_m: 1.5, opening_s: 1.0 };
     let door = crowd.add_door(Door { leaf: leaf(), is_open: false, control });
-    let plan = Plan::Visit { goals: vec![goal], repeats: false };
+    let plan = PersonPlan::Visit { goals: vec![goal], repeats: false };
     let agent = crowd.add_agent(at(1.0, 2.0), plan).unwrap();
     let mut was_open = false;
     while crowd.time_s() < 20.0 {
@@ -66,11 +67,11 @@ fn an_automatic_door_opens_for_people_and_closes_behind_them() {
 fn a_group_stays_together_at_the_pace_of_its_slowest_member() {
     for name in SteeringModel::NAMES {
         let mut crowd = rooms(name);
-        let goal = crowd.add_goal(Goal::at(DVec2::new(9.0, 2.0))).unwrap();
-        let plan = Plan::Visit { goals: vec![goal], repeats: false };
+        let goal = crowd.add_goal(PersonGoal::at(DVec2::new(9.0, 2.0))).unwrap();
+        let plan = PersonPlan::Visit { goals: vec![goal], repeats: false };
         let members = [at(1.0, 1.6).with_speed(0.8), at(1.0, 2.4).with_speed(1.5)];
         crowd.add_group(&members, plan).unwrap();
-        let (_, numbers) = crowd.group_of(AgentId(1));
+        let (_, numbers) = crowd.group_of(PersonId(1));
         assert_eq!(numbers, [0, 1]);
         while crowd.time_s() < 8.0 {
             crowd.step(0.1);
@@ -86,15 +87,16 @@ fn a_group_stays_together_at_the_pace_of_its_slowest_member() {
 fn people_stay_at_goals_and_go_on() {
     let mut crowd = rooms("social_force");
     let goals = [2.0, 8.0].map(|x| {
-        let goal = Goal { stay_s: [3.0, 3.0], ..Goal::at(DVec2::new(x, 2.0)) };
+        let goal = PersonGoal { stay_s: [3.0, 3.0], ..PersonGoal::at(DVec2::new(x, 2.0)) };
         crowd.add_goal(goal).unwrap()
     });
-    let agent = crowd.add_agent(at(2.0, 2.0), Plan::Visit { goals: goals.to_vec(), repeats: true });
+    let agent =
+        crowd.add_agent(at(2.0, 2.0), PersonPlan::Visit { goals: goals.to_vec(), repeats: true });
     let agent = agent.unwrap();
     crowd.step(2.0);
-    assert_eq!(crowd.agent(agent).state(), AgentState::Waiting);
+    assert_eq!(crowd.agent(agent).state(), PersonState::Waiting);
     crowd.step(3.0);
-    assert_eq!(crowd.agent(agent).state(), AgentState::Walking);
+    assert_eq!(crowd.agent(agent).state(), PersonState::Walking);
     crowd.step(20.0);
     assert!(crowd.visits(agent) >= 3);
 }
@@ -103,7 +105,7 @@ fn people_stay_at_goals_and_go_on() {
 fn one_who_stands_steps_aside_for_a_robot() {
     for name in SteeringModel::NAMES {
         let mut crowd = rooms(name);
-        let agent = crowd.add_agent(at(3.0, 2.05), Plan::Stand).unwrap();
+        let agent = crowd.add_agent(at(3.0, 2.05), PersonPlan::Stand).unwrap();
         let mut robot = MovingObstacle::disc(DVec2::new(0.5, 2.0), 0.3, DVec2::new(0.5, 0.0));
         while crowd.time_s() < 8.0 {
             crowd.set_obstacles(vec![robot]);
@@ -118,10 +120,10 @@ fn one_who_stands_steps_aside_for_a_robot() {
 #[test]
 fn wrong_numbers_are_refused() {
     let mut crowd = rooms("orca");
-    let refused = crowd.add_agent(at(f64::NAN, 1.0), Plan::Stand);
-    assert!(matches!(refused, Err(CrowdError::Agent("position x", _))));
-    assert_eq!(crowd.add_agent(at(1.0, 1.0), Plan::Wander), Err(CrowdError::NoGoals));
-    let goal = crowd.add_goal(Goal::at(DVec2::new(50.0, 2.0)));
+    let refused = crowd.add_agent(at(f64::NAN, 1.0), PersonPlan::Stand);
+    assert!(matches!(refused, Err(CrowdError::Person("position x", _))));
+    assert_eq!(crowd.add_agent(at(1.0, 1.0), PersonPlan::Wander), Err(CrowdError::NoGoals));
+    let goal = crowd.add_goal(PersonGoal::at(DVec2::new(50.0, 2.0)));
     assert_eq!(goal, Err(CrowdError::GoalInWall([50.0, 2.0])));
     assert!(crowd.agents().is_empty());
     // No duration, no step.

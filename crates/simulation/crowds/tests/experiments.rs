@@ -1,4 +1,5 @@
 //! The published experiments in short: one seed, few widths and densities. `cargo xtask crowds` prints all of them.
+#![allow(clippy::unwrap_used, reason = "helpers of tests may unwrap as tests do")]
 
 use periplus_crowds::experiments::{
     bottleneck, chattaraj_speed_m_per_s, lanes, plane_speed_m_per_s, seyfried_speed_m_per_s,

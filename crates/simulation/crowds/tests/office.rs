@@ -1,8 +1,13 @@
-//! People and robots in an office: nobody freezes, and no robot is walked through.
+//! People and robots in an office: no person freezes, and no robot is walked through.
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    reason = "helpers of tests may unwrap and print as tests do"
+)]
 
 use periplus_crowds::{
-    AgentSettings, Crowd, CrowdError, CrowdSettings, DVec2, Floor, Goal, GoalId, MovingObstacle,
-    Plan, SteeringModel, Wall,
+    Crowd, CrowdError, CrowdSettings, DVec2, Floor, MovingObstacle, PersonGoal, PersonGoalId,
+    PersonPlan, PersonSettings, SteeringModel, Wall,
 };
 use periplus_geometry::Stream;
 
@@ -69,7 +74,7 @@ fn run(
     for room in 0..10 {
         for y in [2.5, 12.5] {
             let centre = DVec2::new(5.0 * f64::from(room) + 2.5, y);
-            crowd.add_goal(Goal { centre, radius_m: 1.5, stay_s: [5.0, 30.0] }).unwrap();
+            crowd.add_goal(PersonGoal { centre, radius_m: 1.5, stay_s: [5.0, 30.0] }).unwrap();
         }
     }
     let places = crowd.floor().free_points(0.4);
@@ -84,7 +89,9 @@ fn run(
         let place = places[(stream.unit() * places.len() as f64) as usize];
         if taken.iter().all(|other| other.distance(place) > 0.5) {
             let speed = 1.34 + 0.26 * stream.normal().clamp(-2.0, 2.0);
-            crowd.add_agent(AgentSettings::at(place).with_speed(speed), Plan::Wander).unwrap();
+            crowd
+                .add_agent(PersonSettings::at(place).with_speed(speed), PersonPlan::Wander)
+                .unwrap();
             taken.push(place);
         }
     }
@@ -111,7 +118,7 @@ fn run(
         for agent in crowd.agents() {
             longest_still_s = longest_still_s.max(agent.still_s());
             freezes += usize::from((10.0..10.1).contains(&agent.still_s()));
-            if agent.state() == periplus_crowds::AgentState::Walking {
+            if agent.state() == periplus_crowds::PersonState::Walking {
                 speeds += agent.velocity().length();
                 samples += 1.0;
             }
@@ -121,7 +128,7 @@ fn run(
         }
     }
     let goals_reached =
-        (0..people).map(|agent| crowd.visits(periplus_crowds::AgentId(agent))).sum();
+        (0..people).map(|agent| crowd.visits(periplus_crowds::PersonId(agent))).sum();
     let positions = crowd.agents().iter().map(|agent| agent.position()).collect();
     (
         Outcome {
@@ -181,9 +188,9 @@ fn the_number_of_threads_has_no_influence() {
 fn a_goal_leads_people_out_of_the_rooms() {
     let model = SteeringModel::named("orca").unwrap();
     let mut crowd = Crowd::new(office().unwrap(), CrowdSettings { model, seed: 1, threads: 1 });
-    let goal: GoalId = crowd.add_goal(Goal::at(DVec2::new(47.5, 12.5))).unwrap();
-    let plan = Plan::Visit { goals: vec![goal], repeats: false };
-    let agent = crowd.add_agent(AgentSettings::at(DVec2::new(2.5, 2.5)), plan).unwrap();
+    let goal: PersonGoalId = crowd.add_goal(PersonGoal::at(DVec2::new(47.5, 12.5))).unwrap();
+    let plan = PersonPlan::Visit { goals: vec![goal], repeats: false };
+    let agent = crowd.add_agent(PersonSettings::at(DVec2::new(2.5, 2.5)), plan).unwrap();
     // 45 m along the corridor and two doors at 1.34 m/s: about 40 s.
     crowd.step(45.0);
     assert!(crowd.agent(agent).position().distance(DVec2::new(47.5, 12.5)) < 0.6);

@@ -112,7 +112,7 @@ fn the_leg_of_one_who_walks_is_where_its_swing_has_it() {
     let range_m = range_at(&scans, 2.0);
     assert!((range_m - expected_m).abs() < 1e-3, "{range_m} {expected_m}");
     run_to(&mut simulation, 4_300_000_000);
-    // At the end it stands: the legs hang down.
+    // At the end it is at rest: the legs hang down.
     let range_m = range_at(&scans, 4.2);
     assert!((range_m - 6.93).abs() < 1e-5, "{range_m}");
     // A reset brings it back.

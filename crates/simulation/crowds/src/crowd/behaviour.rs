@@ -4,7 +4,7 @@ use glam::DVec2;
 use periplus_geometry::Stream;
 
 use super::{Crowd, Party, Phase};
-use crate::agent::{AgentState, GoalId, Plan};
+use crate::agent::{PersonGoalId, PersonPlan, PersonState};
 
 /// Steps between two looks for the next point of a route; agents take turns.
 const LOOK_STEPS: u64 = 5;
@@ -30,7 +30,7 @@ const SIDESTEP_RAD: f64 = 1.0;
 /// The same in a deadlock: also backwards \[rad\].
 const STEP_BACK_RAD: f64 = 2.6;
 
-/// Time without progress after which those who wander choose another goal \[s\].
+/// Time without progress after which wandering people choose another goal \[s\].
 const GIVE_UP_AFTER_S: f64 = 4.0;
 
 /// A goal that others occupy counts as reached within this additional distance \[m\].
@@ -49,9 +49,9 @@ impl Crowd {
     /// Starts the plan of a group.
     pub(super) fn start(&mut self, group: usize) {
         let phase = match self.parties[group].plan {
-            Plan::Stand => Phase::Done,
-            Plan::Direction(_) => Phase::Walking(None),
-            Plan::Visit { .. } | Plan::Wander => self.next_phase(group),
+            PersonPlan::Stand => Phase::Done,
+            PersonPlan::Direction(_) => Phase::Walking(None),
+            PersonPlan::Visit { .. } | PersonPlan::Wander => self.next_phase(group),
         };
         self.parties[group].phase = phase;
     }
@@ -61,7 +61,7 @@ impl Crowd {
         let Party { members, plan, visits, .. } = &self.parties[group];
         let visit = *visits;
         let goal = match plan {
-            Plan::Visit { goals, repeats } => {
+            PersonPlan::Visit { goals, repeats } => {
                 #[expect(clippy::cast_possible_truncation, reason = "an index of the list")]
                 let number = match goals.len() as u64 {
                     0 => None,
@@ -70,11 +70,11 @@ impl Crowd {
                 };
                 number.map(|number| goals[number])
             }
-            Plan::Wander => {
+            PersonPlan::Wander => {
                 let from = members.first().map(|member| self.agents[*member].position);
                 self.random_goal(group, visit, from)
             }
-            Plan::Stand | Plan::Direction(_) => None,
+            PersonPlan::Stand | PersonPlan::Direction(_) => None,
         };
         self.parties[group].visits += 1;
         self.parties[group].chosen_at_s = self.time_s;
@@ -86,7 +86,7 @@ impl Crowd {
     }
 
     /// Goal that can be reached from a position and is not there, drawn by the group's number and visit.
-    fn random_goal(&self, group: usize, visit: u64, from: Option<DVec2>) -> Option<GoalId> {
+    fn random_goal(&self, group: usize, visit: u64, from: Option<DVec2>) -> Option<PersonGoalId> {
         let from = from?;
         let reachable: Vec<usize> = (0..self.goals.len())
             .filter(|goal| {
@@ -106,7 +106,7 @@ impl Crowd {
             reason = "an index of a list"
         )]
         let number = (stream.unit() * reachable.len() as f64) as usize;
-        Some(GoalId(reachable[number.min(reachable.len() - 1)]))
+        Some(PersonGoalId(reachable[number.min(reachable.len() - 1)]))
     }
 
     /// Advances automatic doors.
@@ -146,12 +146,12 @@ impl Crowd {
     }
 
     /// True once all members of a group are at the goal.
-    fn has_arrived(&self, group: usize, goal: GoalId) -> bool {
+    fn has_arrived(&self, group: usize, goal: PersonGoalId) -> bool {
         let members = &self.parties[group].members;
         members.iter().all(|member| self.is_at(*member, goal))
     }
 
-    fn is_at(&self, number: usize, goal: GoalId) -> bool {
+    fn is_at(&self, number: usize, goal: PersonGoalId) -> bool {
         let agent = &self.agents[number];
         let goal = &self.goals[goal.0].goal;
         let distance_m = agent.position.distance(goal.centre);
@@ -163,7 +163,7 @@ impl Crowd {
 
     fn gives_up(&self, group: usize) -> bool {
         let party = &self.parties[group];
-        party.plan == Plan::Wander
+        party.plan == PersonPlan::Wander
             && party.members.iter().any(|member| {
                 let agent = &self.agents[*member];
                 let tried_s = self.time_s - party.chosen_at_s;
@@ -175,11 +175,11 @@ impl Crowd {
         let group = self.agents[number].group;
         let speed = self.preferred_speed_m_per_s(group);
         let (state, preferred) = match self.parties[group].phase {
-            Phase::Done => (AgentState::Standing, DVec2::ZERO),
-            Phase::Staying(..) => (AgentState::Waiting, DVec2::ZERO),
+            Phase::Done => (PersonState::Standing, DVec2::ZERO),
+            Phase::Staying(..) => (PersonState::Waiting, DVec2::ZERO),
             Phase::Walking(None) => match self.parties[group].plan {
-                Plan::Direction(direction) => (AgentState::Walking, direction * speed),
-                _ => (AgentState::Standing, DVec2::ZERO),
+                PersonPlan::Direction(direction) => (PersonState::Walking, direction * speed),
+                _ => (PersonState::Standing, DVec2::ZERO),
             },
             Phase::Walking(Some(goal)) => self.walk_to(number, goal, speed),
         };
@@ -187,7 +187,7 @@ impl Crowd {
         let agent = &mut self.agents[number];
         agent.state = state;
         agent.preferred = rotate(preferred, sway);
-        let is_blocked = state == AgentState::Walking
+        let is_blocked = state == PersonState::Walking
             && preferred != DVec2::ZERO
             && agent.velocity.dot(preferred.normalize()) < BLOCKED_RATIO * speed;
         agent.blocked_s = if is_blocked {
@@ -206,7 +206,7 @@ impl Crowd {
     }
 
     /// State and preferred velocity on the way to a goal.
-    fn walk_to(&mut self, number: usize, goal: GoalId, speed: f64) -> (AgentState, DVec2) {
+    fn walk_to(&mut self, number: usize, goal: PersonGoalId, speed: f64) -> (PersonState, DVec2) {
         let record = &self.goals[goal.0];
         let agent = &self.agents[number];
         let is_turn = (self.steps + number as u64).is_multiple_of(LOOK_STEPS);
@@ -216,12 +216,12 @@ impl Crowd {
         }
         let agent = &self.agents[number];
         let Some(target) = agent.target else {
-            return (AgentState::Standing, DVec2::ZERO);
+            return (PersonState::Standing, DVec2::ZERO);
         };
         let offset = target - agent.position;
         let distance_m = offset.length();
         if distance_m < 1e-6 {
-            return (AgentState::Walking, DVec2::ZERO);
+            return (PersonState::Walking, DVec2::ZERO);
         }
         let direction = offset / distance_m;
         if let Some(gap_m) = self.gap_to_closed_door_m(agent.position, target) {
@@ -230,11 +230,11 @@ impl Crowd {
             } else {
                 DVec2::ZERO
             };
-            return (AgentState::Queueing, velocity);
+            return (PersonState::Queueing, velocity);
         }
         let is_last = target == self.goals[goal.0].goal.centre;
         let limit = if is_last { distance_m / APPROACH_TIME_S } else { f64::INFINITY };
-        (AgentState::Walking, direction * speed.min(limit))
+        (PersonState::Walking, direction * speed.min(limit))
     }
 
     /// Distance to the closed door between two points; none without a closed door near the first.
@@ -245,20 +245,20 @@ impl Crowd {
         gaps.reduce(f64::min).filter(|gap_m| *gap_m <= QUEUE_RANGE_M)
     }
 
-    /// True if somebody who queues is directly ahead.
+    /// True if a queueing agent is directly ahead.
     fn is_behind_queue(&self, number: usize, direction: DVec2) -> bool {
         let position = self.agents[number].position;
         self.agents.iter().enumerate().any(|(other, agent)| {
             let offset = agent.position - position;
             other != number
-                && agent.state == AgentState::Queueing
+                && agent.state == PersonState::Queueing
                 && offset.length() < QUEUE_GAP_M
                 && offset.dot(direction) > 0.5 * offset.length()
         })
     }
 
     /// Angle by which an agent's direction is turned: a little sway, and tries to pass at the side where it is blocked.
-    fn sway(&self, number: usize, state: AgentState) -> f64 {
+    fn sway(&self, number: usize, state: PersonState) -> f64 {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "not negative")]
         let second = self.time_s as u64;
         let draw = |name: &str, count: u64| {
@@ -266,7 +266,7 @@ impl Crowd {
         };
         let agent = &self.agents[number];
         let blocked_s = agent.blocked_s.max(agent.still_s);
-        if state != AgentState::Walking || blocked_s < SIDESTEP_AFTER_S {
+        if state != PersonState::Walking || blocked_s < SIDESTEP_AFTER_S {
             return SWAY_RAD * (2.0 * draw("crowd sway", second) - 1.0);
         }
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "not negative")]

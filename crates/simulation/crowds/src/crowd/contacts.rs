@@ -6,7 +6,7 @@ use super::Crowd;
 use crate::neighbours::nearest_image;
 
 /// Rounds of corrections in a step.
-const ROUNDS: usize = 2;
+const ROUND_COUNT: usize = 2;
 
 /// Part of the radius that a wall keeps free of a body that has turned sideways.
 const WALL_RADIUS_RATIO: f64 = 0.9;
@@ -22,7 +22,7 @@ impl Crowd {
         let allowed_m = self.settings.model.allowed_overlap_m();
         let mut near = Vec::new();
         let mut corrected = Vec::with_capacity(self.agents.len());
-        for _ in 0..ROUNDS {
+        for _ in 0..ROUND_COUNT {
             let positions: Vec<DVec2> = self.agents.iter().map(|agent| agent.position).collect();
             // The index has the positions before the move: bodies within reach moved by centimetres since.
             corrected.clear();
@@ -68,7 +68,7 @@ impl Crowd {
             let walls = numbers.iter().map(|number| self.floor.walls()[*number as usize]);
             let doors = self.doors.iter().filter(|record| !record.door.is_open);
             let walls: Vec<_> = walls.chain(doors.map(|record| record.door.leaf)).collect();
-            for _ in 0..ROUNDS {
+            for _ in 0..ROUND_COUNT {
                 for wall in &walls {
                     if wall.crosses(*before, agent.position) && *before != agent.position {
                         // Back to the side from which it came.

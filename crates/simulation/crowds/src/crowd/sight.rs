@@ -12,14 +12,14 @@ const WALL_RANGE_M: f64 = 1.5;
 /// Time between two looks at the people ahead; agents take turns \[s\].
 const DECISION_S: f64 = 0.05;
 
-/// Speed of those who squeeze through, as a part of the preferred one.
+/// Speed of squeezing through, as a part of the preferred one.
 const SQUEEZE_SPEED_RATIO: f64 = 0.5;
 
 /// Distance of the bodies within which others oppose an agent \[m\].
 const OPPOSED_GAP_M: f64 = 0.3;
 
 /// Cosine of the headings below which others oppose an agent.
-const OPPOSED_COSINE: f64 = -0.3;
+const OPPOSED_COSINE_RATIO: f64 = -0.3;
 
 /// Choice of an agent in a step.
 #[derive(Clone, Copy, Debug, Default)]
@@ -28,7 +28,7 @@ pub(super) struct Choice {
     pub(super) velocity: DVec2,
     /// Preferred velocity with regard to the people ahead \[m/s\].
     pub(super) adapted: DVec2,
-    /// True if somebody directly ahead comes towards it or does not avoid it.
+    /// True if another directly ahead comes towards it or does not avoid it.
     pub(super) is_opposed: bool,
 }
 
@@ -135,8 +135,8 @@ impl Crowd {
     /// True where a wall or a closed door is in the line of sight.
     fn is_hidden(&self, from: DVec2, offset: DVec2, clear_m: f64) -> bool {
         let to = from + offset;
-        let is_behind_wall =
-            offset.length_squared() > clear_m.max(0.0).powi(2) && self.floor.walls.blocks(from, to);
+        let is_behind_wall = offset.length_squared() > clear_m.max(0.0) * clear_m.max(0.0)
+            && self.floor.walls.blocks(from, to);
         is_behind_wall
             || self
                 .doors
@@ -159,13 +159,13 @@ impl Crowd {
     }
 }
 
-/// True if somebody directly ahead will not go away by itself.
+/// True if another directly ahead will not go away by itself.
 fn is_opposed(view: &Perception<'_>) -> bool {
     let ahead = view.preferred.normalize_or_zero();
     view.neighbours.iter().any(|other| {
         let gap_m = other.offset.length() - view.radius_m - other.radius_m;
         let is_ahead = other.offset.dot(ahead) > 0.0;
-        let is_against = other.heading.dot(ahead) < OPPOSED_COSINE || other.share_ratio > 0.5;
+        let is_against = other.heading.dot(ahead) < OPPOSED_COSINE_RATIO || other.share_ratio > 0.5;
         gap_m < OPPOSED_GAP_M && is_ahead && is_against
     })
 }

@@ -8,17 +8,12 @@
 use glam::DVec2;
 
 use super::{STUDENT_SPEED_M_PER_S, walker};
-use crate::agent::Plan;
-use crate::crowd::{Crowd, CrowdSettings, Goal};
+use crate::agent::PersonPlan;
+use crate::crowd::{Crowd, CrowdSettings, PersonGoal};
 use crate::error::CrowdError;
 use crate::floor::Floor;
 use crate::model::SteeringModel;
 use crate::wall::Wall;
-
-/// Flow by width of Seyfried et al. 2009: widths \[m\] with flows \[1/s\], read from their figure 8, which is linear with a
-/// slope of 1.9 per m and s.
-pub const SEYFRIED_FLOW_PER_S: [(f64, f64); 5] =
-    [(0.8, 1.6), (0.9, 1.8), (1.0, 1.95), (1.1, 2.15), (1.2, 2.35)];
 
 /// Range of the specific flow of Kretz et al. 2006 and Seyfried et al. 2009 for passages from 0.8 m \[1/(m s)\].
 pub const KRETZ_SPECIFIC_FLOW_PER_M_S: [f64; 2] = [1.6, 1.9];
@@ -34,6 +29,12 @@ const START_DENSITY_PER_M2: f64 = 3.3;
 
 /// Time after which a run counts as jammed \[s\].
 const LIMIT_S: f64 = 300.0;
+
+/// Flow by width of Seyfried et al. 2009, linear with 1.9 per m and s for widths from 0.8 m to 1.2 m \[1/s\].
+#[must_use]
+pub fn seyfried_flow_per_s(width_m: f64) -> f64 {
+    1.9 * width_m
+}
 
 /// Result of a bottleneck.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,7 +76,7 @@ pub fn bottleneck(
         walls.push(Wall::new([PASSAGE_M, side * half], [PASSAGE_M, side * HALL_M]));
     }
     let mut crowd = Crowd::new(Floor::new(walls)?, CrowdSettings { model, seed, threads: 1 });
-    let goal = crowd.add_goal(Goal::at(DVec2::new(10.5, 0.0)))?;
+    let goal = crowd.add_goal(PersonGoal::at(DVec2::new(10.5, 0.0)))?;
     let goals = [goal];
     let spacing_m = (1.0 / START_DENSITY_PER_M2).sqrt();
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small numbers")]
@@ -85,7 +86,7 @@ pub fn bottleneck(
         let (row, column) = ((number / in_row) as f64, (number % in_row) as f64);
         let y = (column - (in_row as f64 - 1.0) / 2.0) * spacing_m;
         let position = DVec2::new(-3.0 - row * spacing_m, y);
-        let plan = Plan::Visit { goals: goals.to_vec(), repeats: false };
+        let plan = PersonPlan::Visit { goals: goals.to_vec(), repeats: false };
         crowd.add_agent(walker(position, STUDENT_SPEED_M_PER_S, seed, number as u64), plan)?;
     }
     let mut times_s = Vec::new();

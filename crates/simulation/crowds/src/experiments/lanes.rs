@@ -13,7 +13,7 @@ use glam::DVec2;
 use periplus_geometry::Stream;
 
 use super::{STUDENT_SPEED_M_PER_S, walker};
-use crate::agent::Plan;
+use crate::agent::PersonPlan;
 use crate::crowd::{Crowd, CrowdSettings};
 use crate::error::CrowdError;
 use crate::floor::Floor;
@@ -61,7 +61,7 @@ pub fn lanes(
         let direction = if number % 2 == 0 { DVec2::X } else { -DVec2::X };
         is_right.push(number % 2 == 0);
         let settings = walker(position, STUDENT_SPEED_M_PER_S, seed, number as u64);
-        crowd.add_agent(settings, Plan::Direction(direction))?;
+        crowd.add_agent(settings, PersonPlan::Direction(direction))?;
     }
     let order_at_start = order(&crowd, &is_right);
     let mut ordered_after_s = None;
@@ -123,7 +123,7 @@ fn row_of(y_m: f64) -> usize {
     ((y_m / WIDTH_M * ROWS as f64).max(0.0) as usize).min(ROWS - 1)
 }
 
-/// Random places at least 0.45 m apart; as many as find space.
+/// Random positions at least 0.45 m apart; fewer where there is no space.
 fn mixed_places(density_per_m2: f64, seed: u64) -> Vec<DVec2> {
     let mut stream = Stream::keyed(seed, "experiment places", 0);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small numbers")]

@@ -7,7 +7,7 @@
 use glam::DVec2;
 
 use super::{FREE_SPEED_M_PER_S, walker};
-use crate::agent::Plan;
+use crate::agent::PersonPlan;
 use crate::crowd::{Crowd, CrowdSettings};
 use crate::error::CrowdError;
 use crate::floor::Floor;
@@ -48,7 +48,7 @@ pub fn plane_speed_m_per_s(
     let mut crowd = Crowd::new(floor, CrowdSettings { model, seed, threads: 1 });
     for (number, position) in hexagonal_places(density_per_m2).into_iter().enumerate() {
         let settings = walker(position, FREE_SPEED_M_PER_S, seed, number as u64);
-        crowd.add_agent(settings, Plan::Direction(DVec2::X))?;
+        crowd.add_agent(settings, PersonPlan::Direction(DVec2::X))?;
     }
     while crowd.time_s() < SETTLE_S {
         crowd.step(0.05);
@@ -64,7 +64,7 @@ pub fn plane_speed_m_per_s(
     Ok(sum / samples)
 }
 
-/// Places in rows that are shifted against each other.
+/// Positions in rows that are shifted against each other.
 fn hexagonal_places(density_per_m2: f64) -> Vec<DVec2> {
     let count = density_per_m2 * LENGTH_M * WIDTH_M;
     let usable_m = WIDTH_M - 0.4;

@@ -7,7 +7,7 @@
 use glam::DVec2;
 
 use super::walker;
-use crate::agent::Plan;
+use crate::agent::PersonPlan;
 use crate::crowd::{Crowd, CrowdSettings};
 use crate::error::CrowdError;
 use crate::floor::Floor;
@@ -37,7 +37,7 @@ pub struct SingleFileRun {
     pub density_per_m: f64,
     /// Mean speed along the corridor \[m/s\].
     pub speed_m_per_s: f64,
-    /// Number of times that somebody passed another, which people in the experiment did not.
+    /// Number of times that one person passed another, which people in the experiment did not.
     pub overtakings: usize,
 }
 
@@ -73,7 +73,7 @@ pub fn single_file(
         #[expect(clippy::cast_precision_loss, reason = "small numbers")]
         let position = DVec2::new(number as f64 * LENGTH_M / count, 0.0);
         let settings = walker(position, FREE_SPEED_M_PER_S, seed, number as u64);
-        crowd.add_agent(settings, Plan::Direction(DVec2::X))?;
+        crowd.add_agent(settings, PersonPlan::Direction(DVec2::X))?;
     }
     let order = |crowd: &Crowd| {
         let mut numbers: Vec<usize> = (0..people).collect();

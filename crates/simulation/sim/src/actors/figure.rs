@@ -27,8 +27,9 @@ pub(crate) const MAX_SWING_RAD: f64 = 0.456_9;
 /// Speed from which on the legs swing fully; slower people make smaller steps \[m/s\].
 const FULL_SWING_M_PER_S: f64 = 0.5;
 
-/// Colours of clothes: the name of a person chooses one of each for the upper body and the legs.
-const CLOTHES: [[f64; 3]; 6] = [
+/// Colours of clothes: the name of a person chooses that of the upper body; the last is for the legs. Red, green
+/// and blue from 0 to 1.
+const CLOTHES_RATIO: [[f64; 3]; 6] = [
     [0.75, 0.20, 0.20],
     [0.20, 0.40, 0.75],
     [0.20, 0.60, 0.30],
@@ -37,17 +38,17 @@ const CLOTHES: [[f64; 3]; 6] = [
     [0.30, 0.30, 0.35],
 ];
 
-/// Colour of skin.
-const SKIN: [f64; 3] = [0.85, 0.65, 0.55];
+/// Colour of skin: red, green and blue from 0 to 1.
+const SKIN_RATIO: [f64; 3] = [0.85, 0.65, 0.55];
 
 /// Returns the links of a figure with the soles at the model's origin, looking along x.
 pub(crate) fn figure_links(name: &str) -> Vec<Link> {
     let letters = name.bytes().fold(0_usize, |sum, letter| sum * 31 % 997 + usize::from(letter));
-    let (shirt, trousers) = (CLOTHES[letters % 5], CLOTHES[5]);
+    let (shirt, trousers) = (CLOTHES_RATIO[letters % 5], CLOTHES_RATIO[5]);
     let mut body = Link::new("upper_body");
     add(&mut body, "trunk", Shape::Box { size_m: DVec3::new(0.24, 0.42, 0.6) }, 1.15, shirt);
-    add(&mut body, "neck", Shape::Cylinder { radius_m: 0.05, length_m: 0.1 }, 1.5, SKIN);
-    add(&mut body, "head", Shape::Sphere { radius_m: 0.12 }, 1.63, SKIN);
+    add(&mut body, "neck", Shape::Cylinder { radius_m: 0.05, length_m: 0.1 }, 1.5, SKIN_RATIO);
+    add(&mut body, "head", Shape::Sphere { radius_m: 0.12 }, 1.63, SKIN_RATIO);
     let leg = |name: &str, side: f64| {
         let mut leg = Link::new(name);
         leg.model_from_link = Pose::from_xyz(0.0, side * LEG_OFFSET_M, HIP_M);
