@@ -22,7 +22,7 @@ impl Drop for Running {
     }
 }
 
-/// What a peer printed.
+/// Figures printed by a peer.
 struct Figures {
     messages: f64,
     cpu_s: f64,

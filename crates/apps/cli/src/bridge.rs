@@ -55,7 +55,7 @@ pub(crate) struct BridgeOptions {
     /// Remap a topic, service or node on the ROS side: `from:=to`
     #[arg(long = "remap", short = 'r', value_name = "FROM:=TO")]
     remaps: Vec<String>,
-    /// With `ros1`: bridge topics that nobody subscribes to, too
+    /// With `ros1`: bridge topics without subscribers, too
     #[arg(long)]
     all: bool,
     /// Parameter: `name:=value`

@@ -178,7 +178,7 @@ pub(crate) enum Ros1Use {
 }
 
 impl Ros1Use {
-    /// Returns true if ROS 1 is used; says so if it was asked for and is not.
+    /// Returns true if ROS 1 is used; prints a note if it was requested and is not.
     pub(crate) fn applies(self) -> bool {
         let applies = self == Self::On || has_master();
         if !applies {

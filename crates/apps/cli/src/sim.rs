@@ -238,7 +238,7 @@ impl SimOptions {
         self.robot_count.unwrap_or(self.robots.placements.len())
     }
 
-    /// Adds the copies of the robot. `probe` reads the files again, to look for places.
+    /// Adds the copies of the robot. `probe` reads the files again, to look for free poses.
     fn spread(
         &self,
         mut composition: Composition,

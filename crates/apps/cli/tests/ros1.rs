@@ -36,7 +36,7 @@ impl Drop for Running {
     }
 }
 
-/// A place for a master, which no other test uses.
+/// Port and folder of a master, which no other test uses.
 struct Place {
     port: u16,
     folder: PathBuf,
@@ -233,7 +233,7 @@ fn the_words_of_ros_1_use_a_master_of_debian() {
     drop(told);
     drop(talker);
     drop(core.interrupt());
-    // Without a master the words say so, and what they use.
+    // Without a master the commands print which network they use.
     place.ours_until(&["rostopic", "list"], "no ROS 1 master answers: using ROS 2");
     place.ours_until(&["rosparam", "list"], "does not answer");
 }

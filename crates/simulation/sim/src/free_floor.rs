@@ -1,4 +1,4 @@
-//! Places on a map with room for a robot.
+//! Cells of a map with room for a robot.
 
 use std::collections::{BTreeMap, VecDeque};
 
@@ -11,7 +11,7 @@ const MARGIN_M: f64 = 0.1;
 /// Farthest cell from the start at which the search begins \[m\].
 const MAX_START_DISTANCE_M: f64 = 1.0;
 
-/// Returns the cells that a robot of a radius can reach from its start, in the order of the length of the way there:
+/// Returns the cells that a robot of a radius can reach from its start, in the order of the length of the path there:
 /// where it has room in every heading, over a path with that room. Empty if there are none.
 #[must_use]
 pub fn reachable_cells(map: &OccupancyGrid, start: Pose2, radius_m: f64) -> Vec<Cell> {
@@ -65,7 +65,7 @@ pub fn spread_poses(
     count: usize,
 ) -> Vec<Pose2> {
     let mut poses: Vec<Pose2> = Vec::new();
-    // Poses by squares of the spacing: only the squares around a place can have one that is too near.
+    // Poses by squares of the spacing: only the squares around a position can have one that is too near.
     let mut squares: BTreeMap<(i64, i64), Vec<usize>> = BTreeMap::new();
     let square_of = |x_m: f64, y_m: f64| {
         (libm::floor(x_m / spacing_m) as i64, libm::floor(y_m / spacing_m) as i64)

@@ -68,7 +68,7 @@ impl MasterClient {
     /// Address of a service.
     ///
     /// # Errors
-    /// As [`MasterClient::ask`], also if nobody serves it.
+    /// As [`MasterClient::ask`], also if no node serves it.
     pub fn service(&self, name: &str) -> Result<String, RpcError> {
         let uri = self.ask("lookupService", vec![name.into()])?;
         Ok(uri.text().unwrap_or_default().to_owned())

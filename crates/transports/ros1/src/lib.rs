@@ -45,6 +45,6 @@ pub use settings::{MASTER_PORT, Ros1Reach, Settings};
 pub use tcpros::{Header, MAX_HEADER_BYTES, MAX_MESSAGE_BYTES, MalformedHeader};
 pub use wire::{MasterUse, Ros1Transport};
 pub use xmlrpc::{
-    RpcCall, RpcFault, MalformedXmlRpc, XmlRpcValue, read_call, read_response, write_call, write_fault,
-    write_response,
+    MalformedXmlRpc, RpcCall, RpcFault, XmlRpcValue, read_call, read_response, write_call,
+    write_fault, write_response,
 };

@@ -35,7 +35,7 @@ pub(crate) struct Link {
     attached: Option<Attached>,
 }
 
-/// What the parts of the link share.
+/// State shared by the parts of the link.
 pub(crate) struct Net {
     place: Place,
     client: MasterClient,
@@ -154,18 +154,18 @@ impl Attached {
         }
     }
 
-    /// Registers everything again at a master that has been started anew.
+    /// Registers everything again at a master that was restarted.
     fn check_master(&mut self, net: &Net) {
         let Some(port) = self.ports.values().next() else { return };
         let known = net.client.node(port.name());
         match known {
             Ok(uri) if uri == port.uri() => return,
-            // Another node took the name; the master told this one to end.
+            // Another node took the name; the master asked this one to end.
             Ok(_) => return,
             Err(RpcError::Refused(_)) => {}
             Err(error) => return net.lost(&error),
         }
-        let message = format!("ROS 1: the master {} was started anew", net.client.uri());
+        let message = format!("ROS 1: the master {} was restarted", net.client.uri());
         net.shared.report(
             Diagnostic::warning("ros1-master", message)
                 .help("everything is registered there again"),

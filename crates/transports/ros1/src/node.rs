@@ -21,7 +21,7 @@ pub(crate) struct SubscriptionReport {
     pub(crate) sources: Vec<SourceReport>,
 }
 
-/// Takes what the master and others tell a node.
+/// Takes notifications for a node from the master and other programs.
 pub(crate) trait NodeEvents: Send + Sync + 'static {
     /// The publishers of a topic have changed.
     fn publishers(&self, topic: &str, publishers: Vec<String>);
@@ -49,7 +49,7 @@ struct NodeApi {
     events: Arc<dyn NodeEvents>,
 }
 
-/// Where a process listens, and how others reach it.
+/// Addresses of a process: to listen at, and for other programs.
 #[derive(Clone, Debug)]
 pub(crate) struct Place {
     /// Address to listen at.
@@ -130,9 +130,11 @@ impl Drop for NodePort {
 impl Handler for NodeApi {
     fn call(&self, call: RpcCall) -> Result<XmlRpcValue, RpcFault> {
         let texts: Vec<&str> = call.params.iter().map_while(XmlRpcValue::text).collect();
-        let done = |value: XmlRpcValue| Ok(XmlRpcValue::List(vec![XmlRpcValue::Int(1), "".into(), value]));
-        let wrong =
-            |text: String| Ok(XmlRpcValue::List(vec![XmlRpcValue::Int(-1), text.into(), XmlRpcValue::Int(0)]));
+        let done =
+            |value: XmlRpcValue| Ok(XmlRpcValue::List(vec![XmlRpcValue::Int(1), "".into(), value]));
+        let wrong = |text: String| {
+            Ok(XmlRpcValue::List(vec![XmlRpcValue::Int(-1), text.into(), XmlRpcValue::Int(0)]))
+        };
         match (call.method.as_str(), texts.as_slice()) {
             ("getPid", _) => done(process_id().into()),
             ("getMasterUri", _) => done(self.master_uri.clone().into()),
@@ -186,9 +188,14 @@ impl NodeApi {
         self.port.get().copied().unwrap_or_default()
     }
 
-    fn request_topic(&self, topic: &str, protocols: Option<&XmlRpcValue>) -> Result<XmlRpcValue, RpcFault> {
-        let answer =
-            |code, text: String, value| Ok(XmlRpcValue::List(vec![XmlRpcValue::Int(code), text.into(), value]));
+    fn request_topic(
+        &self,
+        topic: &str,
+        protocols: Option<&XmlRpcValue>,
+    ) -> Result<XmlRpcValue, RpcFault> {
+        let answer = |code, text: String, value| {
+            Ok(XmlRpcValue::List(vec![XmlRpcValue::Int(code), text.into(), value]))
+        };
         if !lock(&self.publications).contains_key(topic) {
             let text = format!("{} does not publish [{topic}]", self.name);
             return answer(0, text, XmlRpcValue::Int(0));
@@ -265,7 +272,11 @@ impl NodeApi {
                 XmlRpcValue::List(row)
             });
             let links = XmlRpcValue::List(links.collect());
-            sent.push(XmlRpcValue::List(vec![publication.topic.clone().into(), count(bytes), links]));
+            sent.push(XmlRpcValue::List(vec![
+                publication.topic.clone().into(),
+                count(bytes),
+                links,
+            ]));
         }
         let mut received = Vec::new();
         for subscription in self.events.subscriptions(&self.name) {
@@ -278,10 +289,13 @@ impl NodeApi {
                     XmlRpcValue::Bool(true),
                 ])
             });
-            received
-                .push(XmlRpcValue::List(vec![subscription.topic.into(), XmlRpcValue::List(links.collect())]));
+            received.push(XmlRpcValue::List(vec![
+                subscription.topic.into(),
+                XmlRpcValue::List(links.collect()),
+            ]));
         }
-        let services = XmlRpcValue::List(vec![XmlRpcValue::Int(0), XmlRpcValue::Int(0), XmlRpcValue::Int(0)]);
+        let services =
+            XmlRpcValue::List(vec![XmlRpcValue::Int(0), XmlRpcValue::Int(0), XmlRpcValue::Int(0)]);
         XmlRpcValue::List(vec![XmlRpcValue::List(sent), XmlRpcValue::List(received), services])
     }
 }

@@ -10,9 +10,9 @@ use crate::xmlrpc::{self, RpcCall, XmlRpcValue};
 /// A call that brought no result.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum RpcError {
-    /// Nobody answers at the address.
+    /// No program answers at the address.
     Unreachable(String),
-    /// What came back is no result.
+    /// The response is no result.
     Malformed(String),
     /// The other side refuses the call.
     Refused(String),
@@ -56,7 +56,7 @@ pub(crate) fn connect(host: &str, port: u16, timeout: Duration) -> std::io::Resu
 /// Calls a method and returns its result.
 ///
 /// # Errors
-/// When nobody answers within the timeout, or the answer is a fault.
+/// When no program answers within the timeout, or the answer is a fault.
 pub fn call(uri: &str, call: &RpcCall, timeout: Duration) -> Result<XmlRpcValue, RpcError> {
     let unreachable =
         |error: &dyn fmt::Display| RpcError::Unreachable(format!("{uri} does not answer: {error}"));
@@ -109,7 +109,9 @@ pub fn ask(
     let mut parts = parts.into_iter();
     match (parts.next(), parts.next(), parts.next()) {
         (Some(XmlRpcValue::Int(1)), _, Some(value)) => Ok(value),
-        (Some(XmlRpcValue::Int(_)), Some(XmlRpcValue::Text(text)), _) => Err(RpcError::Refused(text)),
+        (Some(XmlRpcValue::Int(_)), Some(XmlRpcValue::Text(text)), _) => {
+            Err(RpcError::Refused(text))
+        }
         _ => Err(RpcError::Malformed(format!("{uri}: the result of {method} has no code"))),
     }
 }

@@ -1,4 +1,4 @@
-//! A port of a node: XML-RPC and TCPROS on the same one, told apart by their first bytes.
+//! A port of a node: XML-RPC and TCPROS on the same one, distinguished by their first bytes.
 //!
 //! Requests of HTTP begin with `POST`; as the length of a TCPROS header these four bytes would be 1.4 GB, which is
 //! never valid.

@@ -30,7 +30,7 @@ const LAST_CHANCE: Duration = Duration::from_millis(300);
 /// Caller of calls that belong to no node.
 pub(crate) const CALLER: &str = "/periplus";
 
-/// Whether a program starts a master.
+/// Use of a master by a program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MasterUse {
     /// Join the master that answers; start one if none does and its address is on this machine.
@@ -57,7 +57,7 @@ pub(crate) struct Shared {
     findings: Mutex<Diagnostics>,
     /// A graph to attach, with the node that represents all remote programs.
     pub(crate) joining: Mutex<Option<(Graph, Node)>>,
-    /// Publishers of each topic as the master last told.
+    /// Publishers of each topic in the last notification of the master.
     announced: Mutex<BTreeMap<String, BTreeSet<String>>>,
     /// Subscribed topics, by the node that subscribes.
     pub(crate) reports: Mutex<Option<Arc<dyn Fn(&str) -> Vec<SubscriptionReport> + Send + Sync>>>,

@@ -203,10 +203,16 @@ fn a_publisher_that_lies_about_lengths_is_left() {
         for stream in api.incoming().flatten() {
             let mut request = [0; 4096];
             let _ = (&stream).read(&mut request);
-            let place =
-                XmlRpcValue::List(vec!["TCPROS".into(), "127.0.0.1".into(), XmlRpcValue::Int(port.into())]);
-            let body =
-                periplus_ros1::write_response(&XmlRpcValue::List(vec![XmlRpcValue::Int(1), "".into(), place]));
+            let place = XmlRpcValue::List(vec![
+                "TCPROS".into(),
+                "127.0.0.1".into(),
+                XmlRpcValue::Int(port.into()),
+            ]);
+            let body = periplus_ros1::write_response(&XmlRpcValue::List(vec![
+                XmlRpcValue::Int(1),
+                "".into(),
+                place,
+            ]));
             let head = format!("HTTP/1.1 200 OK\r\nContent-Length: {}\r\n\r\n", body.len());
             let _ = (&stream).write_all(format!("{head}{body}").as_bytes());
         }
@@ -242,7 +248,7 @@ fn a_publisher_that_lies_about_lengths_is_left() {
         findings.iter().find(|one| one.message.contains("/lies")).map(|one| one.message.clone())
     });
     assert!(said.contains("1500000000 bytes are announced"), "{said}");
-    // Others are heard meanwhile.
+    // Messages of others arrive meanwhile.
     let text = wait_for(|| {
         talker.say("truth");
         heard.latest()

@@ -121,6 +121,6 @@ fn everything_is_registered_again_at_a_new_master() {
     drop(first);
     let _second = wait_for(|| Master::open([127, 0, 0, 1].into(), "localhost", port).ok());
     wait_for(knows);
-    let said = wire.take_findings().iter().any(|one| one.message.contains("started anew"));
+    let said = wire.take_findings().iter().any(|one| one.message.contains("was restarted"));
     assert!(said);
 }

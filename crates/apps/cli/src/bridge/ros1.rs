@@ -1,7 +1,7 @@
 //! `periplus bridge ros1`: topics and services between ROS 1 and ROS 2, as `dynamic_bridge` of `ros1_bridge` does.
 //!
-//! Each network has a graph; a relay subscribes in one and publishes in the other. A relay does not hear what the
-//! relay of the other direction publishes, so that no message circulates.
+//! Each network has a graph; a relay subscribes in one and publishes in the other. A relay ignores messages of
+//! the relay in the other direction, so that no message circulates.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::process::ExitCode;

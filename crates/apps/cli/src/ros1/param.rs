@@ -107,7 +107,8 @@ pub(super) fn run(command: &ParamCommand) -> Result<ExitCode, CliError> {
             } else {
                 read(file)?
             };
-            let XmlRpcValue::Struct(members) = yaml::read(&file.display().to_string(), &text)? else {
+            let XmlRpcValue::Struct(members) = yaml::read(&file.display().to_string(), &text)?
+            else {
                 return Err(CliError::failed(format!(
                     "{} has no names of parameters at its top level",
                     file.display()

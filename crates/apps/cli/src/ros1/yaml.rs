@@ -157,7 +157,10 @@ mod tests {
         check("true", XmlRpcValue::Bool(true));
         check("'7'", XmlRpcValue::Text("7".into()));
         check("base_link", XmlRpcValue::Text("base_link".into()));
-        check("[1, a]", XmlRpcValue::List(vec![XmlRpcValue::Int(1), XmlRpcValue::Text("a".into())]));
+        check(
+            "[1, a]",
+            XmlRpcValue::List(vec![XmlRpcValue::Int(1), XmlRpcValue::Text("a".into())]),
+        );
         check("{a: 1}", XmlRpcValue::Struct([("a".to_owned(), XmlRpcValue::Int(1))].into()));
     }
 
@@ -167,10 +170,14 @@ mod tests {
             ("text".to_owned(), XmlRpcValue::Text("7".into())),
             ("lines".to_owned(), XmlRpcValue::Text("a: 1\nb\n".into())),
             ("open".to_owned(), XmlRpcValue::Text("a\nb".into())),
-            ("list".to_owned(), XmlRpcValue::List(vec![XmlRpcValue::Double(1.0), XmlRpcValue::Text("x y".into())])),
+            (
+                "list".to_owned(),
+                XmlRpcValue::List(vec![XmlRpcValue::Double(1.0), XmlRpcValue::Text("x y".into())]),
+            ),
             ("empty".to_owned(), XmlRpcValue::Struct(Default::default())),
         ];
-        let all = XmlRpcValue::Struct([("slam".to_owned(), XmlRpcValue::Struct(inner.into()))].into());
+        let all =
+            XmlRpcValue::Struct([("slam".to_owned(), XmlRpcValue::Struct(inner.into()))].into());
         let text = write(&all);
         assert_eq!(read("text", &text).expect("YAML"), all, "{text}");
     }

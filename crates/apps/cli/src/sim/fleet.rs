@@ -13,10 +13,10 @@ const GAP_M: f64 = 0.5;
 /// Radius of a robot whose collisions define none \[m\].
 const UNKNOWN_RADIUS_M: f64 = 0.3;
 
-/// Smallest distance from the robot in which places are looked for \[m\].
+/// Smallest distance from the robot within which poses are searched \[m\].
 const MIN_REACH_M: f64 = 10.0;
 
-/// Finds places for `count` robots on the floor that the last robot of a world can reach, the nearest first. The world is
+/// Finds poses for `count` robots on the floor that the last robot of a world can reach, the nearest first. The world is
 /// used up.
 ///
 /// # Errors
@@ -28,7 +28,7 @@ pub(super) fn places(mut world: Composition, count: usize) -> Result<Vec<Pose2>,
     let start = start.ok_or_else(|| CliError::failed("`--robots` needs a robot that moves"))?;
     let radius_m = simulation.robot_radius_m().unwrap_or(UNKNOWN_RADIUS_M);
     let spacing_m = 2.0 * radius_m + GAP_M;
-    // A square of floor for all of them, and twice that for what stands around.
+    // A square of floor for all of them, and twice that for obstacles.
     let reach_m = (2.0 * spacing_m * libm::sqrt(count as f64)).max(MIN_REACH_M);
     let (x_m, y_m) = (start.x_m, start.y_m);
     let grid = wall_grid(x_m - reach_m, y_m - reach_m, x_m + reach_m, y_m + reach_m);

@@ -16,7 +16,7 @@ use periplus_ros2cli::{Network, Progress, Seen, SeenNode, SeenService, SeenTopic
 /// Polling period of the master.
 const POLL_PERIOD: Duration = Duration::from_millis(50);
 
-/// Queue depth that `topic info` shows; ROS 1 does not tell it.
+/// Queue depth that `topic info` shows; ROS 1 does not have it.
 const UNKNOWN_DEPTH: usize = 0;
 
 /// Connection to a master and the graph of the command.
@@ -28,7 +28,7 @@ pub(crate) struct Ros1Connection {
     state: Mutex<State>,
 }
 
-/// What is known of the master.
+/// Last state of the master.
 #[derive(Default)]
 struct State {
     last: SystemState,
@@ -103,7 +103,7 @@ impl Network for Ros1Connection {
             for (name, ends) in all {
                 let mut ends = others(ends);
                 if !is_publisher && let Some(connected) = self.wire.subscribers_of(name) {
-                    // Whoever is not connected yet would miss a message.
+                    // A subscriber that is not connected yet would miss a message.
                     ends.retain(|node| connected.contains(node));
                 }
                 if ends.is_empty() {

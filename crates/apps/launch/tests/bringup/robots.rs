@@ -26,6 +26,7 @@ fn a_description_behind_ros_args_moves_joints_of_links_without_inertia() {
         search: Search { working_folder: "/".into(), ..Search::default() },
         dialect: Dialect::Ros2,
         is_wired: false,
+        has_ros1_master: false,
         is_paced: false,
         guarding_command: Vec::new(),
         tools: None,

@@ -73,6 +73,7 @@ pub(crate) fn bringup_with(
         search,
         dialect,
         is_wired: false,
+        has_ros1_master: false,
         is_paced: false,
         guarding_command: Vec::new(),
         tools: None,

@@ -17,7 +17,7 @@ const ROBOT_DESCRIPTION: &str = "robot_description";
 /// Period at which changes are looked for.
 const LOOK: Duration = Duration::from_secs(1);
 
-/// What the parameter server has of the graph's nodes.
+/// Parameters of the graph's nodes as the server has them.
 #[derive(Default)]
 pub(super) struct Parameters {
     known: BTreeMap<String, XmlRpcValue>,

@@ -18,7 +18,7 @@ use crate::node::NodePort;
 use crate::tcpros::{ServiceConnection, ServiceEnd, Serving};
 use crate::wire::CALLER;
 
-/// Period at which the master is asked for a service that nobody serves: ROS 1 does not tell.
+/// Period at which the master is asked for a service without a server: ROS 1 has no notification of new servers.
 const ASK: Duration = Duration::from_secs(1);
 
 #[derive(Default)]

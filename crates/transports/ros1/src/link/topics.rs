@@ -201,7 +201,7 @@ impl Topics {
         }
     }
 
-    /// Connects to the publishers that the master has told.
+    /// Connects to the publishers that the master has announced.
     pub(super) fn feed(&self, net: &Net, ports: &Ports) {
         let changed = net.shared.take_announced();
         if changed.is_empty() {

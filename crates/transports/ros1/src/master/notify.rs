@@ -1,5 +1,5 @@
 //! Calls of the master to nodes: one thread for each node with calls, so that a node that does not answer delays
-//! nobody else.
+//! no other node.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::{Arc, Mutex};

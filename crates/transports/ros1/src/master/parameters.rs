@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::xmlrpc::XmlRpcValue;
 
-/// The parameters, and the nodes that want to hear of changes.
+/// The parameters, and the nodes that subscribe to changes.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Parameters {
     /// Always a dictionary.
@@ -19,7 +19,7 @@ impl Default for Parameters {
     }
 }
 
-/// A change that a node hears of.
+/// A notification of a change.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Change {
     pub(super) address: String,
@@ -40,8 +40,8 @@ impl Parameters {
         })
     }
 
-    /// Sets a parameter, or a namespace to a dictionary. Values on the way that are no dictionaries are replaced by
-    /// one. Returns what nodes hear of it.
+    /// Sets a parameter, or a namespace to a dictionary. Values above it that are no dictionaries are replaced
+    /// by one. Returns the notifications.
     pub(super) fn set(&mut self, key: &str, value: XmlRpcValue) -> Vec<Change> {
         let changes = self.changes(key, &value);
         let mut place = &mut self.root;
@@ -50,8 +50,9 @@ impl Parameters {
                 *place = XmlRpcValue::Struct(BTreeMap::new());
             }
             let XmlRpcValue::Struct(members) = place else { return changes };
-            place =
-                members.entry(part.to_owned()).or_insert_with(|| XmlRpcValue::Struct(BTreeMap::new()));
+            place = members
+                .entry(part.to_owned())
+                .or_insert_with(|| XmlRpcValue::Struct(BTreeMap::new()));
         }
         *place = value;
         changes
@@ -91,14 +92,14 @@ impl Parameters {
         names
     }
 
-    /// Adds a node that hears of changes; returns the value, an empty dictionary if it is not set.
+    /// Subscribes a node to changes; returns the value, an empty dictionary if it is not set.
     pub(super) fn subscribe(&mut self, key: &str, address: &str) -> XmlRpcValue {
         let subscribers = self.subscribers.entry(key.to_owned()).or_default();
         subscribers.insert(address.to_owned());
         self.get(key).cloned().unwrap_or_else(|| XmlRpcValue::Struct(BTreeMap::new()))
     }
 
-    /// Removes a node from those that hear of changes; true if it was one.
+    /// Removes a subscription to changes; true if there was one.
     pub(super) fn unsubscribe(&mut self, key: &str, address: &str) -> bool {
         let Some(subscribers) = self.subscribers.get_mut(key) else { return false };
         let was_there = subscribers.remove(address);
@@ -116,7 +117,7 @@ impl Parameters {
         });
     }
 
-    /// Changes for those who follow the parameter, one above it, or one below it.
+    /// Notifications for nodes that subscribe to the parameter, one above it, or one below it.
     fn changes(&self, key: &str, value: &XmlRpcValue) -> Vec<Change> {
         let mut changes = Vec::new();
         for (followed, addresses) in &self.subscribers {

@@ -1,4 +1,4 @@
-//! Who publishes, subscribes and serves what.
+//! Publishers, subscribers and servers.
 
 use std::collections::BTreeMap;
 

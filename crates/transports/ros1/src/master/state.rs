@@ -178,7 +178,12 @@ impl MasterState {
     }
 
     /// Sets a parameter by its full name. The whole tree can only be a dictionary.
-    fn set_parameter(&mut self, key: &str, value: XmlRpcValue, out: &mut Vec<Notification>) -> Outcome {
+    fn set_parameter(
+        &mut self,
+        key: &str,
+        value: XmlRpcValue,
+        out: &mut Vec<Notification>,
+    ) -> Outcome {
         if key.is_empty() && !matches!(value, XmlRpcValue::Struct(_)) {
             return Wrong("all parameters together are a dictionary".into());
         }
@@ -236,7 +241,7 @@ impl MasterState {
         Done(format!("Registered [{node}] as publisher of [{topic}]"), subscribers.into())
     }
 
-    /// Notes the address of a node. A node of the same name at another address is told to end.
+    /// Notes the address of a node. A node of the same name at another address is asked to end.
     fn register_node(&mut self, node: &str, api: &str, out: &mut Vec<Notification>) {
         let old = self.nodes.insert(node.to_owned(), api.to_owned());
         let Some(old) = old.filter(|old| old != api) else { return };
@@ -308,7 +313,10 @@ const METHODS: [&str; 17] = [
 fn tell(changes: Vec<Change>, out: &mut Vec<Notification>) {
     for Change { address, key, value } in changes {
         let params = vec![MASTER.into(), key.into(), value];
-        out.push(Notification { address, call: RpcCall { method: "paramUpdate".to_owned(), params } });
+        out.push(Notification {
+            address,
+            call: RpcCall { method: "paramUpdate".to_owned(), params },
+        });
     }
 }
 
@@ -342,7 +350,11 @@ mod tests {
 
     /// Result of a call of text parameters, and the calls because of it.
     #[track_caller]
-    fn ask(state: &mut MasterState, method: &str, params: &[&str]) -> (XmlRpcValue, Vec<Notification>) {
+    fn ask(
+        state: &mut MasterState,
+        method: &str,
+        params: &[&str],
+    ) -> (XmlRpcValue, Vec<Notification>) {
         let params = params.iter().map(|text| XmlRpcValue::from(*text)).collect();
         let (answer, out) = state.call(RpcCall { method: method.to_owned(), params });
         let Ok(XmlRpcValue::List(parts)) = answer else { panic!("{answer:?}") };
@@ -374,8 +386,10 @@ mod tests {
         let (count, _) = ask(&mut state, "unregisterPublisher", &["/lidar", "/scan", B]);
         assert_eq!(count, XmlRpcValue::Int(0));
         state.drop_idle_nodes();
-        let (found, _) = state
-            .call(RpcCall { method: "lookupNode".into(), params: vec!["/x".into(), "/lidar".into()] });
+        let (found, _) = state.call(RpcCall {
+            method: "lookupNode".into(),
+            params: vec!["/x".into(), "/lidar".into()],
+        });
         assert!(matches!(found, Ok(XmlRpcValue::List(parts)) if parts[0] == XmlRpcValue::Int(-1)));
     }
 
@@ -387,8 +401,10 @@ mod tests {
             ask(&mut state, "registerPublisher", &["/lamp", "state", "std_msgs/Bool", B]);
         assert_eq!(out.len(), 1);
         assert_eq!((out[0].address.as_str(), out[0].call.method.as_str()), (A, "shutdown"));
-        let (answer, _) = state
-            .call(RpcCall { method: "lookupService".into(), params: vec!["/x".into(), "/on".into()] });
+        let (answer, _) = state.call(RpcCall {
+            method: "lookupService".into(),
+            params: vec!["/x".into(), "/on".into()],
+        });
         assert!(matches!(answer, Ok(XmlRpcValue::List(parts)) if parts[0] == XmlRpcValue::Int(-1)));
     }
 
@@ -397,7 +413,10 @@ mod tests {
         let mut state = MasterState::new("http://here:11311/");
         let params = vec!["/slam".into(), "~delta".into(), XmlRpcValue::Double(0.05)];
         let _ = state.call(RpcCall { method: "setParam".into(), params });
-        assert_eq!(ask(&mut state, "getParam", &["/x", "/slam/delta"]).0, XmlRpcValue::Double(0.05));
+        assert_eq!(
+            ask(&mut state, "getParam", &["/x", "/slam/delta"]).0,
+            XmlRpcValue::Double(0.05)
+        );
         assert_eq!(ask(&mut state, "hasParam", &["/x", "delta"]).0, XmlRpcValue::Bool(false));
         assert_eq!(ask(&mut state, "searchParam", &["/slam", "delta"]).0, "/slam/delta".into());
         assert_eq!(ask(&mut state, "getParamNames", &["/x"]).0, vec!["/slam/delta"].into());

@@ -18,7 +18,7 @@ const MAX_WAITING_BYTES: usize = 256 << 20;
 /// Period at which a connection without messages is checked for its end.
 const LOOK: Duration = Duration::from_secs(1);
 
-/// Wakes whoever follows the number of subscribers.
+/// Callback for changes of the number of subscribers.
 pub(crate) type Wake = Box<dyn Fn() + Send + Sync>;
 
 /// A published topic.

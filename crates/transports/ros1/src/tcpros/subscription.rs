@@ -29,7 +29,7 @@ pub(crate) trait Receiver: Send + Sync + 'static {
     /// Begins with a publisher, after its header; an error refuses it.
     fn begin(&self, publisher: &str, header: &Header) -> Result<Receive, String>;
 
-    /// Reports that a publisher cannot be heard.
+    /// Reports that messages of a publisher cannot be received.
     fn complain(&self, publisher: &str, why: &str);
 }
 
@@ -72,9 +72,9 @@ pub(crate) struct SourceReport {
 
 /// Reason for which a connection ended.
 enum End {
-    /// It may work again.
+    /// Lost: a new connection may work.
     Lost,
-    /// It will not.
+    /// Refused: a new connection fails as well.
     Refused(String),
 }
 
@@ -226,9 +226,9 @@ impl Shared {
             }
         })?;
         match agreed.list() {
-            Some([XmlRpcValue::Text(protocol), XmlRpcValue::Text(host), XmlRpcValue::Int(port)])
-                if protocol == "TCPROS" =>
-            {
+            Some(
+                [XmlRpcValue::Text(protocol), XmlRpcValue::Text(host), XmlRpcValue::Int(port)],
+            ) if protocol == "TCPROS" => {
                 let port = u16::try_from(*port).map_err(|_| End::Lost)?;
                 Ok((host.clone(), port))
             }

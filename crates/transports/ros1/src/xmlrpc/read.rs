@@ -53,7 +53,8 @@ pub fn read_response(body: &[u8]) -> Result<Result<XmlRpcValue, RpcFault>, Malfo
             return Err(MalformedXmlRpc("the fault has no members".into()));
         };
         let code = members.get("faultCode").and_then(XmlRpcValue::int).unwrap_or_default();
-        let text = members.get("faultString").and_then(XmlRpcValue::text).unwrap_or_default().to_owned();
+        let text =
+            members.get("faultString").and_then(XmlRpcValue::text).unwrap_or_default().to_owned();
         return Ok(Err(RpcFault { code, text }));
     }
     let value = values(child(&root, "params")?)?.into_iter().next();
@@ -210,7 +211,8 @@ mod tests {
         leaf.prop_recursive(4, 40, 6, |inner| {
             prop_oneof![
                 proptest::collection::vec(inner.clone(), 0..6).prop_map(XmlRpcValue::List),
-                proptest::collection::btree_map("[a-z]{1,6}", inner, 0..6).prop_map(XmlRpcValue::Struct),
+                proptest::collection::btree_map("[a-z]{1,6}", inner, 0..6)
+                    .prop_map(XmlRpcValue::Struct),
             ]
         })
     }

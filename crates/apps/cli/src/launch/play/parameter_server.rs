@@ -34,9 +34,9 @@ fn value_of(json: &Json) -> XmlRpcValue {
         },
         Json::String(text) => XmlRpcValue::Text(text.clone()),
         Json::Array(list) => XmlRpcValue::List(list.iter().map(value_of).collect()),
-        Json::Object(members) => {
-            XmlRpcValue::Struct(members.iter().map(|(name, one)| (name.clone(), value_of(one))).collect())
-        }
+        Json::Object(members) => XmlRpcValue::Struct(
+            members.iter().map(|(name, one)| (name.clone(), value_of(one))).collect(),
+        ),
     }
 }
 
@@ -52,7 +52,9 @@ mod tests {
         assert_eq!(value_of(&json!(3_000_000_000_i64)), XmlRpcValue::Double(3e9));
         assert_eq!(
             value_of(&json!({"a": [true]})),
-            XmlRpcValue::Struct([("a".to_owned(), XmlRpcValue::List(vec![XmlRpcValue::Bool(true)]))].into())
+            XmlRpcValue::Struct(
+                [("a".to_owned(), XmlRpcValue::List(vec![XmlRpcValue::Bool(true)]))].into()
+            )
         );
     }
 }
