@@ -3,7 +3,6 @@
 #![allow(clippy::unwrap_used, clippy::print_stderr, reason = "tests")]
 #![allow(clippy::disallowed_methods, reason = "tests with other programs wait and look for them")]
 
-use std::io::Read as _;
 use std::net::TcpListener;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
@@ -15,22 +14,18 @@ const LONG: Duration = Duration::from_secs(40);
 /// A program that runs until the test ends.
 struct Running(Child);
 
-impl Running {
-    /// Ends it as Ctrl-C does, and returns what it printed.
-    fn interrupt(mut self) -> String {
-        let id = self.0.id().to_string();
-        let _ = Command::new("kill").args(["-INT", &id]).status();
-        let mut text = String::new();
-        if let Some(mut out) = self.0.stdout.take() {
-            let _ = out.read_to_string(&mut text);
-        }
-        let _ = self.0.wait();
-        text
-    }
-}
-
 impl Drop for Running {
     fn drop(&mut self) {
+        // As Ctrl-C does: `roscore` ends its own processes then.
+        let id = self.0.id().to_string();
+        let _ = Command::new("kill").args(["-INT", &id]).status();
+        let start = Instant::now();
+        while start.elapsed() < Duration::from_secs(5) {
+            if matches!(self.0.try_wait(), Ok(Some(_))) {
+                return;
+            }
+            std::thread::sleep(Duration::from_millis(20));
+        }
         let _ = self.0.kill();
         let _ = self.0.wait();
     }
@@ -78,7 +73,7 @@ impl Place {
 
     fn start(&self, mut command: Command) -> Running {
         let log = std::fs::File::create(self.folder.join("started.log")).unwrap();
-        Running(command.stdout(Stdio::piped()).stderr(log).spawn().unwrap())
+        Running(command.stdout(Stdio::null()).stderr(log).spawn().unwrap())
     }
 
     /// Output of a program that ends; it is killed after a long time.
@@ -232,7 +227,7 @@ fn the_words_of_ros_1_use_a_master_of_debian() {
     place.theirs_until("rostopic", &["echo", "-n", "1", "/greeting"], "data: \"good morning\"");
     drop(told);
     drop(talker);
-    drop(core.interrupt());
+    drop(core);
     // Without a master the commands print which network they use.
     place.ours_until(&["rostopic", "list"], "no ROS 1 master answers: using ROS 2");
     place.ours_until(&["rosparam", "list"], "does not answer");

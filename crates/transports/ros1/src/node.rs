@@ -21,6 +21,9 @@ pub(crate) struct SubscriptionReport {
     pub(crate) sources: Vec<SourceReport>,
 }
 
+/// Reports the subscribed topics of a node by its name.
+pub(crate) type SubscriptionReporter = Arc<dyn Fn(&str) -> Vec<SubscriptionReport> + Send + Sync>;
+
 /// Takes notifications for a node from the master and other programs.
 pub(crate) trait NodeEvents: Send + Sync + 'static {
     /// The publishers of a topic have changed.

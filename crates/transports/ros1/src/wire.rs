@@ -14,7 +14,7 @@ use crate::client::MasterClient;
 use crate::error::Ros1Error;
 use crate::link::Link;
 use crate::master::Master;
-use crate::node::{NodeEvents, Place, SubscriptionReport};
+use crate::node::{NodeEvents, Place, SubscriptionReport, SubscriptionReporter};
 use crate::outgoing::Lane;
 use crate::rpc::RpcError;
 use crate::settings::{Settings, is_own};
@@ -60,7 +60,7 @@ pub(crate) struct Shared {
     /// Publishers of each topic in the last notification of the master.
     announced: Mutex<BTreeMap<String, BTreeSet<String>>>,
     /// Subscribed topics, by the node that subscribes.
-    pub(crate) reports: Mutex<Option<Arc<dyn Fn(&str) -> Vec<SubscriptionReport> + Send + Sync>>>,
+    pub(crate) reports: Mutex<Option<SubscriptionReporter>>,
     is_closing: AtomicBool,
     is_attached: AtomicBool,
     /// Published topics, for [`Ros1Transport::flush`].

@@ -1,10 +1,13 @@
 //! `periplus ros1 param`: the parameter server.
 
 use std::io::{self, Read as _, Write as _};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Subcommand;
+use periplus_diagnostics::plain_words;
+use periplus_os::Machine;
+use periplus_resources::Host as _;
 use periplus_ros1::{MasterClient, RpcError, XmlRpcValue};
 
 use super::{client, failed, yaml};
@@ -135,9 +138,12 @@ fn get(client: &MasterClient, name: &str) -> Result<XmlRpcValue, CliError> {
     })
 }
 
-fn read(file: &std::path::Path) -> Result<String, CliError> {
-    std::fs::read_to_string(file)
-        .map_err(|error| CliError::failed(format!("cannot read {}: {error}", file.display())))
+fn read(file: &Path) -> Result<String, CliError> {
+    let failed = |why: &dyn std::fmt::Display| {
+        CliError::failed(format!("cannot read {}: {why}", file.display()))
+    };
+    let bytes = Machine.read(file).map_err(|error| failed(&plain_words(&error)))?;
+    String::from_utf8(bytes).map_err(|_| failed(&"it is not UTF-8"))
 }
 
 /// Full name of a parameter.

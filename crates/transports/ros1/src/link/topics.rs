@@ -16,7 +16,7 @@ use periplus_transport::{Foreign, Since, Taps, lock};
 use super::{Net, Ports, addresses, port};
 use crate::codec::Codec;
 use crate::names::{Ros1Type, message_definition, ros1_type};
-use crate::node::{NodePort, SubscriptionReport};
+use crate::node::{NodePort, SubscriptionReport, SubscriptionReporter};
 use crate::outgoing::Outgoing;
 use crate::tcpros::{Header, Publication, Receive, Receiver, Subscription};
 use crate::wire::Shared;
@@ -285,7 +285,7 @@ impl Topics {
     }
 
     /// Reports the subscribed topics of a node.
-    pub(super) fn reporter(&self) -> Arc<dyn Fn(&str) -> Vec<SubscriptionReport> + Send + Sync> {
+    pub(super) fn reporter(&self) -> SubscriptionReporter {
         let all = self.subscribing.clone();
         Arc::new(move |node| {
             let all = lock(&all);
