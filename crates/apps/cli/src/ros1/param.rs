@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Subcommand;
-use periplus_diagnostics::plain_words;
 use periplus_os::Machine;
 use periplus_resources::Host as _;
 use periplus_ros1::{MasterClient, RpcError, XmlRpcValue};
@@ -142,7 +141,7 @@ fn read(file: &Path) -> Result<String, CliError> {
     let failed = |why: &dyn std::fmt::Display| {
         CliError::failed(format!("cannot read {}: {why}", file.display()))
     };
-    let bytes = Machine.read(file).map_err(|error| failed(&plain_words(&error)))?;
+    let bytes = Machine.read(file).map_err(|error| failed(&error))?;
     String::from_utf8(bytes).map_err(|_| failed(&"it is not UTF-8"))
 }
 
