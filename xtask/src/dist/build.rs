@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::OnceLock;
 
 use super::target::Target;
 use super::tools;
@@ -122,8 +123,13 @@ pub(super) fn source_date(source: &Path) -> Result<u64, Failed> {
     })
 }
 
-/// Commit of the sources; with `+changes` if the tree differs from it.
+/// Commit of the sources; with `+changes` if the tree differs from it. It is read once, so that a second build names the
+/// same one.
 fn commit() -> Result<String, Failed> {
+    static COMMIT: OnceLock<String> = OnceLock::new();
+    if let Some(known) = COMMIT.get() {
+        return Ok(known.clone());
+    }
     let git = |words: &[&str]| -> Result<String, Failed> {
         let output = Command::new("git").args(words).current_dir(root()).output();
         let output = output.map_err(|error| Failed(format!("git: {error}")))?;
@@ -131,7 +137,8 @@ fn commit() -> Result<String, Failed> {
     };
     let changed = git(&["status", "--porcelain", "--untracked-files=no"])?;
     let commit = git(&["rev-parse", "--short=12", "HEAD"])?;
-    Ok(if changed.is_empty() { commit } else { commit + "+changes" })
+    let commit = if changed.is_empty() { commit } else { commit + "+changes" };
+    Ok(COMMIT.get_or_init(|| commit).clone())
 }
 
 fn help(target: &Target) -> String {
