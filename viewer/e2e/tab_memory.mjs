@@ -22,7 +22,12 @@ await page.waitForFunction('window.periplusTab?.phase.kind === "running"', undef
   timeout: 60_000,
 });
 await page.evaluate(async (speed) => {
-  const now = await window.periplus.call('/get_physics_properties', {});
+  // The services are listed shortly after the run has begun.
+  let now;
+  while (!now?.time_step) {
+    await new Promise((resolve) => setTimeout(resolve, 200));
+    now = await window.periplus.call('/get_physics_properties', {}).catch(() => undefined);
+  }
   await window.periplus.call('/set_physics_properties', {
     time_step: now.time_step,
     max_update_rate: speed / now.time_step,
