@@ -67,13 +67,11 @@ impl MapServer {
             Ok(())
         })?;
         actor.with(|state| state.params = MapServerParams::from_values(&parameters.values()));
-        actor.serve::<GetMap>("~/map", |state, _, io| {
-            if io.node().is_active() {
-                return GetMapResponse { map: state.map.clone().unwrap_or_default() };
-            }
-            io.node().log(Level::Warn, "the map was requested, but the map server is not active");
-            GetMapResponse::default()
-        })?;
+        actor.serve::<GetMap>("~/map", |state, _, io| state.answer(io))?;
+        if distro == Distro::Noetic {
+            // The name of ROS 1.
+            actor.serve::<GetMap>("static_map", |state, _, io| state.answer(io))?;
+        }
         actor.serve::<LoadMap>("~/load_map", |state, request, io| {
             state.reload(&request.map_url, io)
         })?;
@@ -117,6 +115,15 @@ impl LifecycleCallbacks for MapServer {
 }
 
 impl MapServer {
+    /// Map of a request; empty while the server is not active.
+    fn answer(&self, io: &Io<'_, Self>) -> GetMapResponse {
+        if io.node().is_active() {
+            return GetMapResponse { map: self.map.clone().unwrap_or_default() };
+        }
+        io.node().log(Level::Warn, "the map was requested, but the map server is not active");
+        GetMapResponse::default()
+    }
+
     fn advertise(&self, node: &Node) -> Result<Outputs, GraphError> {
         Ok(Outputs {
             map: node.publisher(&self.params.topic_name, Qos::latched(1))?,

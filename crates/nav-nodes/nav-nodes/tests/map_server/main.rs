@@ -84,10 +84,14 @@ impl Stage {
     }
 
     fn server(&self, yaml_filename: &str) -> LifecycleNode<MapServer> {
+        self.server_of(yaml_filename, Distro::Jazzy)
+    }
+
+    fn server_of(&self, yaml_filename: &str, distro: Distro) -> LifecycleNode<MapServer> {
         let node = self.graph.node(NodeSettings::new("map_server")).unwrap();
         let params =
             MapServerParams { yaml_filename: yaml_filename.into(), ..MapServerParams::default() };
-        MapServer::new(node, params, Distro::Jazzy, Files::new()).unwrap()
+        MapServer::new(node, params, distro, Files::new()).unwrap()
     }
 
     fn ask<S: Service>(&self, name: &str, request: S::Request) -> Arc<S::Response> {
@@ -133,6 +137,16 @@ fn a_map_is_served() {
     server.lifecycle().change(Transition::Deactivate);
     stage.graph.settle();
     assert!(stage.ask::<GetMap>("/map_server/map", GetMapRequest::default()).map.data.is_empty());
+}
+
+#[test]
+fn the_server_of_ros_1_has_its_service() {
+    let stage = Stage::new();
+    let server = stage.server_of("/m/a.yaml", Distro::Noetic);
+    server.start();
+    stage.graph.settle();
+    let answer = stage.ask::<GetMap>("/static_map", GetMapRequest::default());
+    assert_eq!(answer.map.data, [100, 0]);
 }
 
 #[test]
