@@ -68,6 +68,7 @@ ON_FILES: list[tuple[str, list[str], int]] = [
     ("check", [ROBOT, str(ROOT / "viewer/package.json")], 1),
     ("compare", ["run.mcap", "run.mcap"], 0),
     ("conformance", [str(ROOT / "conformance/cases")], 0),
+    ("convert", [ROBOT, "--to", "harmonic", "--out", "harmonic"], 0),
     ("doctor", [ROBOT], 1),
     ("doctor", ["--self"], 0),
     ("interface list", [], 0),
