@@ -90,7 +90,8 @@ pub(crate) fn run(options: &ViewOptions, ros: Vec<String>) -> Result<ExitCode, C
                     complain(&error.to_string());
                 }
             }
-            page.set_remote(&remote);
+            let ros1 = live.ros1.as_ref().map(|ros1| ros1.remote());
+            page.set_remote(Some(&remote), ros1.as_deref());
             live.print_findings();
         }
         sleep(POLL_PERIOD);

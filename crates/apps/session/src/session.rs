@@ -195,17 +195,21 @@ impl SimulationSession {
                 let mut line = line.borrow_mut();
                 line.show(progress);
                 watch.check(recorder.as_ref(), progress, &line);
-                if let Some(ros1) = ros1
-                    && ros1.is_due(progress.wall)
-                {
+                let is_ros1_due = ros1.as_mut().is_some_and(|ros1| ros1.is_due(progress.wall));
+                let is_ros2_due = ros2.is_due(progress.wall);
+                if let Some(ros1) = ros1.as_ref().filter(|_| is_ros1_due) {
                     line.aside(|| ros1.print_findings());
                 }
-                if ros2.is_due(progress.wall) {
+                if is_ros2_due {
                     line.aside(|| ros2.print_findings());
-                    #[cfg(not(target_family = "wasm"))]
-                    if let (Some(page), Some(remote)) = (page, ros2.remote()) {
-                        page.set_remote(&remote);
-                    }
+                }
+                #[cfg(not(target_family = "wasm"))]
+                if let Some(page) = page
+                    && (is_ros1_due || is_ros2_due)
+                {
+                    let (remote, state) =
+                        (ros2.remote(), ros1.as_ref().map(Ros1Connection::remote));
+                    page.set_remote(remote.as_ref(), state.as_deref());
                 }
             },
         );

@@ -7,6 +7,7 @@ mod topics;
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
+use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use periplus_diagnostics::Diagnostic;
@@ -26,6 +27,9 @@ use topics::Topics;
 
 /// Period at which changes of the graph are checked, unless something else wakes the thread.
 const LOOK: Duration = Duration::from_millis(25);
+
+/// Shortest period at which the master is asked for the registrations of other programs.
+const OBSERVE: Duration = Duration::from_millis(800);
 
 /// Period at which the master is asked whether it knows this program.
 const CHECK: Duration = Duration::from_secs(2);
@@ -58,6 +62,7 @@ struct Attached {
     parameters: Parameters,
     steady: SteadyClock,
     checked: Since,
+    observed: Since,
 }
 
 /// Ports of the nodes by their names in the graph.
@@ -118,6 +123,7 @@ impl Link {
                     services: Services::default(),
                     parameters: Parameters::default(),
                     checked: Since::now(),
+                    observed: Since::now(),
                 });
             }
             if let Some(attached) = &mut self.attached {
@@ -148,10 +154,30 @@ impl Attached {
         self.services.send_questions(net);
         self.parameters.follow(net, &self.graph);
         self.steady.advance();
+        if self.observed.elapsed() >= OBSERVE
+            && net.shared.is_observed.swap(false, Ordering::AcqRel)
+        {
+            self.observed = Since::now();
+            self.observe(net);
+        }
         if !net.is_master_here && self.checked.elapsed() >= CHECK {
             self.checked = Since::now();
             self.check_master(net);
         }
+    }
+
+    /// Notes what other programs have registered.
+    fn observe(&self, net: &Net) {
+        // A master that does not answer leaves what is known.
+        let Ok(mut state) = net.client.system_state() else { return };
+        let own: BTreeSet<&str> = self.ports.values().map(NodePort::name).collect();
+        for all in [&mut state.publishers, &mut state.subscribers, &mut state.services] {
+            for (_, nodes) in all.iter_mut() {
+                nodes.retain(|node| !own.contains(node.as_str()));
+            }
+            all.retain(|(_, nodes)| !nodes.is_empty());
+        }
+        *lock(&net.shared.remote) = Arc::new(state);
     }
 
     /// Registers everything again at a master that was restarted.

@@ -10,7 +10,7 @@ use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_graph::{Graph, Node};
 use periplus_transport::{Since, lock, stand_in};
 
-use crate::client::MasterClient;
+use crate::client::{MasterClient, SystemState};
 use crate::error::Ros1Error;
 use crate::link::Link;
 use crate::master::Master;
@@ -63,6 +63,10 @@ pub(crate) struct Shared {
     pub(crate) reports: Mutex<Option<SubscriptionReporter>>,
     is_closing: AtomicBool,
     is_attached: AtomicBool,
+    /// Set when [`Ros1Transport::remote`] was called, so that the link thread asks the master.
+    pub(crate) is_observed: AtomicBool,
+    /// Everything that other programs have registered, as last seen.
+    pub(crate) remote: Mutex<Arc<SystemState>>,
     /// Published topics, for [`Ros1Transport::flush`].
     publications: Mutex<Vec<Weak<Publication>>>,
 }
@@ -184,6 +188,14 @@ impl Ros1Transport {
     #[must_use]
     pub fn client(&self) -> &MasterClient {
         &self.client
+    }
+
+    /// Everything that other programs have registered, as seen within the last second or two; the first call returns
+    /// nothing. It does not wait for the master.
+    #[must_use]
+    pub fn remote(&self) -> Arc<SystemState> {
+        self.shared.is_observed.store(true, Ordering::Release);
+        lock(&self.shared.remote).clone()
     }
 
     /// Sets parameters of the parameter server by their full names.

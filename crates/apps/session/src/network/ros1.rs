@@ -1,11 +1,14 @@
 //! Simulation on the ROS 1 network.
 
 use std::io;
+use std::sync::Arc;
 use std::time::Duration;
 
 use periplus_graph::Graph;
 use periplus_os::Machine;
-use periplus_ros1::{MasterUse, Ros1Error, Ros1Reach, Ros1Transport, Settings, XmlRpcValue};
+use periplus_ros1::{
+    MasterUse, Ros1Error, Ros1Reach, Ros1Transport, Settings, SystemState, XmlRpcValue,
+};
 
 use crate::error::RunError;
 use crate::terminal;
@@ -73,6 +76,11 @@ impl Ros1Connection {
             self.checked = wall;
         }
         is_due
+    }
+
+    /// Topics and nodes of other programs.
+    pub(crate) fn remote(&self) -> Arc<SystemState> {
+        self.wire.remote()
     }
 
     /// Prints network problems.

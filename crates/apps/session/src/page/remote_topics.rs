@@ -1,6 +1,8 @@
-//! Remote topics of the ROS 2 network, for the page.
+//! Remote topics of ROS 2 and ROS 1, for the page.
 
 use periplus_dds::{Remote, RemoteEndpoint};
+use periplus_graph::Qos;
+use periplus_ros1::{SystemState, ros2_type};
 use periplus_web::foxglove::{NetworkEndpoint, NetworkEndpoints, NetworkService, NetworkTopic};
 
 /// Converts remote topics; if types differ, the first one counts.
@@ -31,4 +33,45 @@ pub(super) fn remote_topics(remote: &Remote) -> NetworkEndpoints {
         })
     });
     NetworkEndpoints { topics: topics.collect(), services: services.collect() }
+}
+
+/// Adds the topics that only programs of ROS 1 have. ROS 1 does not state the types of services.
+pub(super) fn add_ros1(endpoints: &mut NetworkEndpoints, state: &SystemState) {
+    let end = |node: &String| NetworkEndpoint { node: node.clone(), qos: Qos::reliable(0) };
+    for (name, publishers) in &state.publishers {
+        if endpoints.topics.iter().any(|topic| topic.name == *name) {
+            continue;
+        }
+        let Some(type_name) = state.topic_types.get(name).and_then(|of| ros2_type(of)) else {
+            continue;
+        };
+        let subscribers = state.subscribers.iter().find(|(topic, _)| topic == name);
+        endpoints.topics.push(NetworkTopic {
+            name: name.clone(),
+            type_name,
+            type_hash: None,
+            publishers: publishers.iter().map(end).collect(),
+            subscriptions: subscribers.into_iter().flat_map(|(_, all)| all).map(end).collect(),
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_topic_of_ros_1_is_listed_with_its_type_in_ros_2() {
+        let state = SystemState {
+            publishers: vec![("/map".to_owned(), vec!["/slam_gmapping".to_owned()])],
+            topic_types: [("/map".to_owned(), "nav_msgs/OccupancyGrid".to_owned())].into(),
+            ..SystemState::default()
+        };
+        let mut endpoints = NetworkEndpoints::default();
+        add_ros1(&mut endpoints, &state);
+        add_ros1(&mut endpoints, &state);
+        let [topic] = endpoints.topics.as_slice() else { panic!("{endpoints:?}") };
+        assert_eq!(topic.type_name, "nav_msgs/msg/OccupancyGrid");
+        assert_eq!(topic.publishers[0].node, "/slam_gmapping");
+    }
 }

@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use periplus_dds::Remote;
 use periplus_graph::Graph;
+use periplus_ros1::SystemState;
 use periplus_web::foxglove::Recordings;
 use periplus_web::server::{WebServer, WebServerSettings, token};
 
@@ -132,8 +133,12 @@ impl Page {
     }
 
     /// Updates the topics of remote nodes.
-    pub fn set_remote(&self, remote: &Remote) {
-        self.hub.hub.set_network_endpoints(remote_topics::remote_topics(remote));
+    pub fn set_remote(&self, remote: Option<&Remote>, ros1: Option<&SystemState>) {
+        let mut endpoints = remote.map(remote_topics::remote_topics).unwrap_or_default();
+        if let Some(state) = ros1 {
+            remote_topics::add_ros1(&mut endpoints, state);
+        }
+        self.hub.hub.set_network_endpoints(endpoints);
     }
 
     /// Recordings of the page.

@@ -105,7 +105,8 @@ fn spin(
         live.print_findings();
         if let Some(page) = page.filter(|_| checked.elapsed() >= REMOTE_UPDATE_PERIOD) {
             checked = Stopwatch::start();
-            page.set_remote(&live.wire.remote());
+            let ros1 = live.ros1.as_ref().map(|ros1| ros1.remote());
+            page.set_remote(Some(&live.wire.remote()), ros1.as_deref());
         }
         sleep(POLL_PERIOD);
     }
