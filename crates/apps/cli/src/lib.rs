@@ -25,6 +25,7 @@ mod mapping;
 mod mcp;
 mod navigate;
 mod new;
+mod offered_qos;
 mod options;
 mod own_command;
 mod page;

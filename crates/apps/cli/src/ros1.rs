@@ -50,6 +50,11 @@ fn client() -> Result<MasterClient, CliError> {
     Ok(MasterClient::new(&settings.master_uri, CALLER))
 }
 
+/// Full name of a node, parameter or service.
+fn full(name: &str) -> String {
+    if name.starts_with('/') { name.to_owned() } else { format!("/{name}") }
+}
+
 /// Error of a call to the master.
 fn failed(client: &MasterClient, error: RpcError) -> CliError {
     match error {

@@ -8,16 +8,13 @@ use std::time::Duration;
 use periplus_cyclonedds_sys::{self as dds, Participant, Waker};
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_graph::{Graph, Node};
-use periplus_transport::{Since, lock, stand_in};
+use periplus_transport::{lock, stand_in, wait_until};
 
 use crate::link::Link;
 use crate::outgoing::{Lanes, Outgoing};
 use crate::peers::Peers;
 use crate::remote::{DiscoveryProgress, Remote};
 use crate::{DdsError, Guid, Settings, user_data};
-
-/// Polling period of [`DdsTransport::flush`].
-const LOOK_AGAIN: Duration = Duration::from_millis(5);
 
 /// Time for sending the remaining samples when the transport is dropped.
 const LAST_CHANCE: Duration = Duration::from_millis(300);
@@ -126,18 +123,11 @@ impl DdsTransport {
     /// the timeout; true if they have. Best effort is not waited for.
     #[must_use]
     pub fn flush(&self, timeout: Duration) -> bool {
-        let start = Since::now();
-        loop {
+        wait_until(timeout, || {
             let writers = lock(&self.shared.writers).clone();
             let is_sent = self.shared.lanes.waiting() == 0;
-            if is_sent && writers.iter().all(|one| one.writer.wait_acknowledged(0)) {
-                return true;
-            }
-            if start.elapsed() >= timeout {
-                return false;
-            }
-            std::thread::sleep(LOOK_AGAIN);
-        }
+            is_sent && writers.iter().all(|one| one.writer.wait_acknowledged(0))
+        })
     }
 
     /// Returns the findings since the last call: incompatible types and QoS, malformed samples,

@@ -140,7 +140,7 @@ impl GzBridge {
     pub fn new(graph: &Graph, transport: &Arc<Transport>) -> Self {
         let inner: Arc<Mutex<Inner>> = Arc::default();
         let is_closing = Arc::new(AtomicBool::new(false));
-        let (lane, converting) = Lane::start();
+        let (lane, converting) = Lane::start("gz-convert", Outgoing::send);
         let worker = Worker {
             graph: graph.clone(),
             transport: transport.clone(),

@@ -1,27 +1,29 @@
 //! Conversion and sending of messages of the graph. One thread does it for all topics, so that
 //! publishers do not wait.
 
-use std::collections::{BTreeSet, VecDeque};
-use std::sync::mpsc::{Receiver, Sender, channel};
+use std::collections::BTreeSet;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex};
-use std::thread::JoinHandle;
 
 use periplus_graph::{EndpointId, Sample, Sink, TopicInfo};
-use periplus_transport::lock;
+use periplus_transport::{SendQueue, lock};
 
 use crate::GzPublisher;
 use crate::convert::Convert;
+
+/// The send thread.
+pub(crate) type Lane = periplus_transport::Lane<Arc<Outgoing>>;
 
 /// Send queue of one topic.
 pub(crate) struct Outgoing {
     topic: String,
     publisher: GzPublisher,
     convert: Box<dyn Convert>,
-    /// Queue depth; the oldest message is dropped when it is exceeded.
-    depth: usize,
     /// Filter of publishers.
     who: Mutex<Who>,
-    queue: Mutex<Queue>,
+    queue: SendQueue,
+    /// Number of messages without an equivalent in Gazebo.
+    unsaid: AtomicU64,
     lane: Lane,
 }
 
@@ -32,14 +34,6 @@ pub(crate) enum Who {
     AllBut(BTreeSet<EndpointId>),
     /// Only these.
     Only(BTreeSet<EndpointId>),
-}
-
-#[derive(Default)]
-struct Queue {
-    samples: VecDeque<Sample>,
-    is_scheduled: bool,
-    /// Number of messages without an equivalent in Gazebo.
-    unsaid: u64,
 }
 
 impl Outgoing {
@@ -55,9 +49,9 @@ impl Outgoing {
             topic: topic.to_owned(),
             publisher,
             convert,
-            depth: depth.max(1),
             who: Mutex::new(who),
-            queue: Mutex::default(),
+            queue: SendQueue::new(depth),
+            unsaid: AtomicU64::new(0),
             lane: lane.clone(),
         })
     }
@@ -72,7 +66,7 @@ impl Outgoing {
 
     /// Number of messages without an equivalent in Gazebo.
     pub(crate) fn unsaid(&self) -> u64 {
-        lock(&self.queue).unsaid
+        self.unsaid.load(Ordering::Relaxed)
     }
 
     fn goes(&self, publisher: EndpointId) -> bool {
@@ -83,20 +77,14 @@ impl Outgoing {
     }
 
     /// Converts and sends the oldest message.
-    fn send(self: Arc<Self>) {
-        let sample = lock(&self.queue).samples.pop_front();
-        let Some(sample) = sample else { return };
-        let bytes = self.convert.to_gazebo(&sample);
-        if let Some(bytes) = &bytes {
-            self.publisher.publish(bytes);
+    pub(crate) fn send(self: Arc<Self>) {
+        let Some(sample) = self.queue.pop() else { return };
+        match self.convert.to_gazebo(&sample) {
+            Some(bytes) => self.publisher.publish(&bytes),
+            None => _ = self.unsaid.fetch_add(1, Ordering::Relaxed),
         }
-        let mut queue = lock(&self.queue);
-        queue.unsaid += u64::from(bytes.is_none());
-        queue.is_scheduled = !queue.samples.is_empty();
-        if queue.is_scheduled {
-            drop(queue);
-            let lane = self.lane.clone();
-            lane.schedule(self);
+        if self.queue.finish() {
+            self.lane.clone().schedule(self);
         }
     }
 }
@@ -117,42 +105,8 @@ impl Sink for Ear {
         if !self.0.goes(sample.publisher) {
             return;
         }
-        let mut queue = lock(&self.0.queue);
-        if queue.samples.len() == self.0.depth {
-            queue.samples.pop_front();
-        }
-        queue.samples.push_back(sample.clone());
-        if !std::mem::replace(&mut queue.is_scheduled, true) {
-            drop(queue);
+        if self.0.queue.push(sample.clone()) {
             self.0.lane.schedule(self.0.clone());
         }
-    }
-}
-
-/// The send thread. It ends when all handles are dropped.
-#[derive(Clone)]
-pub(crate) struct Lane(Sender<Option<Arc<Outgoing>>>);
-
-impl Lane {
-    pub(crate) fn start() -> (Self, JoinHandle<()>) {
-        let (jobs, work) = channel();
-        let thread = std::thread::Builder::new().name("gz-convert".to_owned());
-        let thread = thread.spawn(move || run(&work)).expect("the system starts a thread");
-        (Self(jobs), thread)
-    }
-
-    fn schedule(&self, outgoing: Arc<Outgoing>) {
-        // Fails only after the transport is closed.
-        let _ = self.0.send(Some(outgoing));
-    }
-
-    pub(crate) fn end(&self) {
-        let _ = self.0.send(None);
-    }
-}
-
-fn run(work: &Receiver<Option<Arc<Outgoing>>>) {
-    while let Ok(Some(outgoing)) = work.recv() {
-        outgoing.send();
     }
 }

@@ -8,15 +8,12 @@ use std::time::Duration;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_graph::{Graph, Node};
-use periplus_transport::{Since, lock, stand_in};
+use periplus_transport::{Bell, lock, stand_in, wait_until};
 use zenoh::{Config, Session, Wait};
 
 use crate::link::Link;
 use crate::outgoing::{Job, Lane};
 use crate::{EntityToken, Settings, ZenohError, token};
-
-/// Polling period of [`ZenohTransport::flush`].
-const LOOK_AGAIN: Duration = Duration::from_millis(5);
 
 /// Time for sending the remaining messages when the transport is dropped.
 const LAST_CHANCE: Duration = Duration::from_millis(300);
@@ -36,9 +33,8 @@ pub(crate) struct Shared {
     others: Mutex<(BTreeMap<String, EntityToken>, u64)>,
     /// Notified when the tokens have changed.
     changed: Condvar,
-    /// Set and notified when the link thread has work.
-    due: Mutex<bool>,
-    rung: Condvar,
+    /// Rings when the link thread has work.
+    bell: Bell,
     findings: Mutex<Diagnostics>,
     /// A graph to attach, with the node that represents all remote programs.
     pub(crate) joining: Mutex<Option<(Graph, Node)>>,
@@ -53,16 +49,13 @@ impl Shared {
 
     /// Wakes the link thread.
     pub(crate) fn wake(&self) {
-        *lock(&self.due) = true;
-        self.rung.notify_one();
+        self.bell.ring();
     }
 
     /// Sleeps until the link thread has work, at most for the timeout; false when the transport is
     /// closed.
     pub(crate) fn sleep(&self, timeout: Duration) -> bool {
-        let due = lock(&self.due);
-        let waited = self.rung.wait_timeout_while(due, timeout, |due| !*due);
-        *waited.unwrap_or_else(PoisonError::into_inner).0 = false;
+        self.bell.wait(timeout);
         !self.is_closing.load(Ordering::Acquire)
     }
 
@@ -148,7 +141,7 @@ impl ZenohTransport {
             .background()
             .wait()
             .map_err(network)?;
-        let (lane, sending) = Lane::start();
+        let (lane, sending) = Lane::start("zenoh-send", Job::perform);
         let link = Link::new(session.clone(), shared.clone(), lane.clone(), settings);
         let thread = std::thread::Builder::new().name("zenoh".to_owned());
         let linking = thread.spawn(move || link.run()).expect("the system starts a thread");
@@ -202,16 +195,7 @@ impl ZenohTransport {
     /// true if it was.
     #[must_use]
     pub fn flush(&self, timeout: Duration) -> bool {
-        let start = Since::now();
-        loop {
-            if self.lane.is_idle() {
-                return true;
-            }
-            if start.elapsed() >= timeout {
-                return false;
-            }
-            std::thread::sleep(LOOK_AGAIN);
-        }
+        wait_until(timeout, || self.lane.is_idle())
     }
 
     /// Returns the findings since the last call.
@@ -226,7 +210,7 @@ impl Drop for ZenohTransport {
         let _ = self.flush(LAST_CHANCE);
         self.shared.is_closing.store(true, Ordering::Release);
         self.shared.wake();
-        self.lane.schedule(Job::End);
+        self.lane.end();
         for thread in self.threads.drain(..) {
             let _ = thread.join();
         }

@@ -1,6 +1,6 @@
 //! Calls to the master.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::time::Duration;
 
 use crate::rpc::{self, RpcError};
@@ -31,6 +31,20 @@ pub struct SystemState {
     pub services: NodesByName,
     /// Type of each topic.
     pub topic_types: BTreeMap<String, String>,
+}
+
+impl SystemState {
+    /// Without the nodes of these names, and what only they have.
+    #[must_use]
+    pub fn without(mut self, nodes: &BTreeSet<String>) -> Self {
+        for all in [&mut self.publishers, &mut self.subscribers, &mut self.services] {
+            for (_, names) in all.iter_mut() {
+                names.retain(|name| !nodes.contains(name));
+            }
+            all.retain(|(_, names)| !names.is_empty());
+        }
+        self
+    }
 }
 
 impl MasterClient {

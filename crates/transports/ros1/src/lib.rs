@@ -38,7 +38,8 @@ pub use error::Ros1Error;
 pub use fuzz::{fuzz_http, fuzz_tcpros};
 pub use master::{Master, MasterState, Notification};
 pub use names::{
-    Ros1Type, message_definition, ros1_type, ros2_service_type, ros2_type, service_definition,
+    Ros1Type, message_definition, node_name, ros1_type, ros2_service_type, ros2_type,
+    service_definition,
 };
 pub use rpc::{RpcError, ask, call};
 pub use settings::{MASTER_PORT, Ros1Reach, Settings};

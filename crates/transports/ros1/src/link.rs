@@ -169,15 +169,9 @@ impl Attached {
     /// Notes what other programs have registered.
     fn observe(&self, net: &Net) {
         // A master that does not answer leaves what is known.
-        let Ok(mut state) = net.client.system_state() else { return };
-        let own: BTreeSet<&str> = self.ports.values().map(NodePort::name).collect();
-        for all in [&mut state.publishers, &mut state.subscribers, &mut state.services] {
-            for (_, nodes) in all.iter_mut() {
-                nodes.retain(|node| !own.contains(node.as_str()));
-            }
-            all.retain(|(_, nodes)| !nodes.is_empty());
-        }
-        *lock(&net.shared.remote) = Arc::new(state);
+        let Ok(state) = net.client.system_state() else { return };
+        let own = self.ports.values().map(|port| port.name().to_owned()).collect();
+        *lock(&net.shared.remote) = Arc::new(state.without(&own));
     }
 
     /// Registers everything again at a master that was restarted.

@@ -81,7 +81,8 @@ pub fn service_definition(ros1: &str) -> Option<Ros1Type> {
 }
 
 /// Name of a node as ROS 1 allows it: without leading underscores.
-pub(crate) fn node_name(graph: &str) -> String {
+#[must_use]
+pub fn node_name(graph: &str) -> String {
     let parts = graph.split('/').map(|part| part.trim_start_matches('_'));
     parts.collect::<Vec<_>>().join("/")
 }

@@ -10,6 +10,7 @@ use periplus_transport::lock;
 
 use crate::error::Ros1Error;
 use crate::master::process_id;
+use crate::rpc::uri_host;
 use crate::server::{Handler, Server};
 use crate::tcpros::{Header, Publication, Serving, SourceReport, read_header_after};
 use crate::xmlrpc::{RpcCall, RpcFault, XmlRpcValue};
@@ -68,11 +69,9 @@ impl NodePort {
         name: &str,
         events: Arc<dyn NodeEvents>,
     ) -> Result<Self, Ros1Error> {
-        let host =
-            if place.host.contains(':') { format!("[{}]", place.host) } else { place.host.clone() };
         let api = Arc::new(NodeApi {
             name: name.to_owned(),
-            host,
+            host: place.host.clone(),
             port: OnceLock::new(),
             master_uri: place.master_uri.clone(),
             publications: Mutex::default(),
@@ -93,12 +92,12 @@ impl NodePort {
 
     /// Address of the slave API.
     pub(crate) fn uri(&self) -> String {
-        format!("http://{}:{}/", self.api.host, self.api.port())
+        format!("http://{}:{}/", uri_host(&self.api.host), self.api.port())
     }
 
     /// Address of the services.
     pub(crate) fn service_uri(&self) -> String {
-        format!("rosrpc://{}:{}", self.api.host, self.api.port())
+        format!("rosrpc://{}:{}", uri_host(&self.api.host), self.api.port())
     }
 
     pub(crate) fn publish(&self, publication: Arc<Publication>) {
@@ -210,8 +209,9 @@ impl NodeApi {
             let text = format!("{} is not supported; TCPROS is", names.join(", "));
             return answer(0, text, XmlRpcValue::List(Vec::new()));
         }
-        let host = self.host.trim_matches(['[', ']']);
-        let place = vec!["TCPROS".into(), host.into(), XmlRpcValue::Int(self.port().into())];
+        let host = &self.host;
+        let place =
+            vec!["TCPROS".into(), host.as_str().into(), XmlRpcValue::Int(self.port().into())];
         answer(1, format!("ready on {host}:{}", self.port()), XmlRpcValue::List(place))
     }
 

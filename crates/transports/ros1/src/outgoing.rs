@@ -1,17 +1,17 @@
 //! Conversion of messages of the graph. One thread does it for all topics, so that publishers do not wait; each
 //! subscriber has a thread that sends.
 
-use std::collections::VecDeque;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::mpsc::{Receiver, Sender, channel};
-use std::sync::{Arc, Mutex};
-use std::thread::JoinHandle;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, Ordering};
 
 use periplus_graph::Sample;
-use periplus_transport::{Way, lock};
+use periplus_transport::{SendQueue, Way};
 
 use crate::codec::Codec;
 use crate::tcpros::Publication;
+
+/// The thread that converts.
+pub(crate) type Lane = periplus_transport::Lane<Arc<Outgoing>>;
 
 /// A publisher of the graph with its queue.
 pub(crate) struct Outgoing {
@@ -19,20 +19,10 @@ pub(crate) struct Outgoing {
     codec: Codec,
     /// True if a message begins with a header, whose sequence number the publisher of ROS 1 counts.
     has_header: bool,
-    /// Queue depth; the oldest message is dropped when it is exceeded.
-    depth: usize,
-    queue: Mutex<Queue>,
-    lane: Lane,
-}
-
-#[derive(Default)]
-struct Queue {
-    samples: VecDeque<Sample>,
-    /// True if the thread is scheduled for it.
-    is_scheduled: bool,
-    dropped: u64,
     /// Sequence number of the next message.
-    number: u32,
+    number: AtomicU32,
+    queue: SendQueue,
+    lane: Lane,
 }
 
 impl Outgoing {
@@ -42,20 +32,19 @@ impl Outgoing {
         depth: usize,
         lane: &Lane,
     ) -> Arc<Self> {
-        let (depth, queue, lane) = (depth.max(1), Mutex::default(), lane.clone());
+        let (number, queue, lane) = (AtomicU32::new(0), SendQueue::new(depth), lane.clone());
         let has_header = has_header(&publication.of.definition);
-        Arc::new(Self { publication, codec, has_header, depth, queue, lane })
+        Arc::new(Self { publication, codec, has_header, number, queue, lane })
     }
 
     /// Number of messages dropped, here or for a slow subscriber.
     pub(crate) fn dropped(&self) -> u64 {
-        lock(&self.queue).dropped + self.publication.dropped()
+        self.queue.dropped() + self.publication.dropped()
     }
 
     /// Converts the oldest message and gives it to the subscribers.
-    fn send(self: Arc<Self>) {
-        let sample = lock(&self.queue).samples.pop_front();
-        let Some(sample) = sample else { return };
+    pub(crate) fn send(self: Arc<Self>) {
+        let Some(sample) = self.queue.pop() else { return };
         // Messages that violate their type are dropped.
         if let Ok(cdr) = sample.cdr() {
             let mut frame = Vec::with_capacity(cdr.len() + 8);
@@ -65,17 +54,14 @@ impl Outgoing {
             {
                 frame[..4].copy_from_slice(&length.to_le_bytes());
                 if self.has_header && frame.len() >= 8 {
-                    let mut queue = lock(&self.queue);
-                    frame[4..8].copy_from_slice(&queue.number.to_le_bytes());
-                    queue.number = queue.number.wrapping_add(1);
+                    // It wraps around at the end of its range.
+                    let number = self.number.fetch_add(1, Ordering::Relaxed);
+                    frame[4..8].copy_from_slice(&number.to_le_bytes());
                 }
                 self.publication.send(&Arc::new(frame));
             }
         }
-        let mut queue = lock(&self.queue);
-        queue.is_scheduled = !queue.samples.is_empty();
-        if queue.is_scheduled {
-            drop(queue);
+        if self.queue.finish() {
             self.lane.clone().schedule(self);
         }
     }
@@ -93,58 +79,8 @@ impl Way for Outgoing {
     }
 
     fn push(self: &Arc<Self>, sample: Sample) {
-        let mut queue = lock(&self.queue);
-        if queue.samples.len() == self.depth {
-            queue.samples.pop_front();
-            queue.dropped += 1;
-        }
-        queue.samples.push_back(sample);
-        if !std::mem::replace(&mut queue.is_scheduled, true) {
-            drop(queue);
+        if self.queue.push(sample) {
             self.lane.schedule(self.clone());
         }
-    }
-}
-
-/// The thread that converts.
-#[derive(Clone)]
-pub(crate) struct Lane {
-    jobs: Sender<Option<Arc<Outgoing>>>,
-    waiting: Arc<AtomicUsize>,
-}
-
-impl Lane {
-    /// Starts the thread.
-    pub(crate) fn start() -> (Self, JoinHandle<()>) {
-        let (jobs, work) = channel();
-        let lane = Self { jobs, waiting: Arc::default() };
-        let waiting = lane.waiting.clone();
-        let thread = std::thread::Builder::new().name("ros1-convert".to_owned());
-        let thread =
-            thread.spawn(move || run(&work, &waiting)).expect("the system starts a thread");
-        (lane, thread)
-    }
-
-    fn schedule(&self, outgoing: Arc<Outgoing>) {
-        self.waiting.fetch_add(1, Ordering::AcqRel);
-        // Fails only after the transport is closed.
-        let _ = self.jobs.send(Some(outgoing));
-    }
-
-    /// True if nothing waits to be converted.
-    pub(crate) fn is_idle(&self) -> bool {
-        self.waiting.load(Ordering::Acquire) == 0
-    }
-
-    /// Ends the thread after what is scheduled.
-    pub(crate) fn end(&self) {
-        let _ = self.jobs.send(None);
-    }
-}
-
-fn run(work: &Receiver<Option<Arc<Outgoing>>>, waiting: &AtomicUsize) {
-    while let Ok(Some(outgoing)) = work.recv() {
-        outgoing.send();
-        waiting.fetch_sub(1, Ordering::AcqRel);
     }
 }

@@ -41,6 +41,11 @@ pub(crate) fn host_and_port(uri: &str) -> Option<(String, u16)> {
     Some((host.to_owned(), port.parse().ok().filter(|port| *port > 0)?))
 }
 
+/// Host as a URI has it: an IPv6 address in brackets.
+pub(crate) fn uri_host(host: &str) -> String {
+    if host.contains(':') { format!("[{host}]") } else { host.to_owned() }
+}
+
 /// Connects to an address.
 pub(crate) fn connect(host: &str, port: u16, timeout: Duration) -> std::io::Result<TcpStream> {
     let mut last = std::io::Error::new(std::io::ErrorKind::NotFound, "the host has no address");

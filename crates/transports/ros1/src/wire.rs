@@ -2,27 +2,24 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Condvar, Mutex, PoisonError, Weak};
+use std::sync::{Arc, Mutex, Weak};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_graph::{Graph, Node};
-use periplus_transport::{Since, lock, stand_in};
+use periplus_transport::{Bell, lock, stand_in, wait_until};
 
 use crate::client::{MasterClient, SystemState};
 use crate::error::Ros1Error;
 use crate::link::Link;
 use crate::master::Master;
 use crate::node::{NodeEvents, Place, SubscriptionReport, SubscriptionReporter};
-use crate::outgoing::Lane;
+use crate::outgoing::{Lane, Outgoing};
 use crate::rpc::RpcError;
 use crate::settings::{Settings, is_own};
 use crate::tcpros::Publication;
 use crate::xmlrpc::XmlRpcValue;
-
-/// Polling period of [`Ros1Transport::flush`].
-const LOOK_AGAIN: Duration = Duration::from_millis(5);
 
 /// Time for sending the remaining messages when the transport is dropped.
 const LAST_CHANCE: Duration = Duration::from_millis(300);
@@ -52,8 +49,8 @@ pub struct Ros1Transport {
 /// State shared by the handle, the threads and the ports.
 #[derive(Default)]
 pub(crate) struct Shared {
-    due: Mutex<bool>,
-    rung: Condvar,
+    /// Rings when the link thread has work.
+    bell: Bell,
     findings: Mutex<Diagnostics>,
     /// A graph to attach, with the node that represents all remote programs.
     pub(crate) joining: Mutex<Option<(Graph, Node)>>,
@@ -78,15 +75,12 @@ impl Shared {
 
     /// Wakes the link thread.
     pub(crate) fn wake(&self) {
-        *lock(&self.due) = true;
-        self.rung.notify_one();
+        self.bell.ring();
     }
 
     /// Sleeps until the link thread has work, at most for the timeout; false when the transport is closed.
     pub(crate) fn sleep(&self, timeout: Duration) -> bool {
-        let due = lock(&self.due);
-        let waited = self.rung.wait_timeout_while(due, timeout, |due| !*due);
-        *waited.unwrap_or_else(PoisonError::into_inner).0 = false;
+        self.bell.wait(timeout);
         !self.is_closing.load(Ordering::Acquire)
     }
 
@@ -150,7 +144,7 @@ impl Ros1Transport {
             Err(why) => return Err(Ros1Error::Master { uri: settings.master_uri.clone(), why }),
         };
         let shared = Arc::new(Shared::default());
-        let (lane, converting) = Lane::start();
+        let (lane, converting) = Lane::start("ros1-convert", Outgoing::send);
         let place = Place {
             address: settings.address(),
             host: settings.host.clone(),
@@ -221,16 +215,7 @@ impl Ros1Transport {
     /// Waits until everything published so far was sent, at most for the timeout; true if it was.
     #[must_use]
     pub fn flush(&self, timeout: Duration) -> bool {
-        let start = Since::now();
-        loop {
-            if self.lane.is_idle() && self.shared.is_sent() {
-                return true;
-            }
-            if start.elapsed() >= timeout {
-                return false;
-            }
-            std::thread::sleep(LOOK_AGAIN);
-        }
+        wait_until(timeout, || self.lane.is_idle() && self.shared.is_sent())
     }
 
     /// Returns the findings since the last call.

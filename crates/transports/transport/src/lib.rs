@@ -12,8 +12,10 @@
 //! assert_eq!(names::type_of("std_msgs/msg/String"), "std_msgs::msg::dds_::String_");
 //! ```
 
+mod bell;
 mod clock;
 pub mod environment;
+mod lane;
 pub mod names;
 mod own;
 pub mod report;
@@ -22,7 +24,9 @@ mod taps;
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
+pub use bell::{Bell, wait_until};
 pub use clock::{Since, unix_ns};
+pub use lane::{Lane, SendQueue};
 pub use own::{Own, is_stand_in, stand_in};
 pub use steady::SteadyClock;
 pub use taps::{Foreign, Taps, Way};

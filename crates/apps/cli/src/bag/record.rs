@@ -8,9 +8,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use periplus_bags::files::{BagError, RecordSettings, Recorder, Storage, WriteSettings};
-use periplus_graph::{
-    Arguments, Durability, Node, NodeSettings, Policy, Qos, RawMailbox, Reliability,
-};
+use periplus_graph::{Arguments, Node, NodeSettings, Policy, Qos, RawMailbox};
 use periplus_msgs::TypeRegistry;
 use periplus_os::{Machine, sleep, unix_ns};
 use periplus_resources::Host as _;
@@ -19,6 +17,7 @@ use periplus_session::{LiveGraph, stop, with_version};
 
 use super::options::RecordOptions;
 use crate::error::CliError;
+use crate::offered_qos::strongest_request;
 use crate::terminal;
 
 /// Period of discovery of new topics and of flushing old messages to the disk.
@@ -168,7 +167,7 @@ impl RecorderSubscriptions {
                 continue;
             }
             let hash = topic.type_hash.as_deref();
-            let qos = request(topic);
+            let qos = strongest_request(topic.qos.iter());
             if before == Some(qos) {
                 // Other incompatibilities cannot be solved by a weaker request.
                 continue;
@@ -197,19 +196,6 @@ impl RecorderSubscriptions {
             drop(mailbox.drain());
         }
     }
-}
-
-/// Strongest QoS that all publishers of a topic offer.
-fn request(topic: &OfferedTopic) -> Qos {
-    let offers = || topic.qos.iter();
-    let mut qos = Qos::reliable(100);
-    if offers().any(|offer| offer.reliability == Reliability::BestEffort) {
-        qos = qos.with_reliability(Reliability::BestEffort);
-    }
-    if offers().all(|offer| offer.durability == Durability::TransientLocal) {
-        qos = qos.with_durability(Durability::TransientLocal);
-    }
-    qos
 }
 
 impl RecordOptions {

@@ -5,13 +5,12 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::process::ExitCode;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::time::Duration;
 
 use periplus_graph::{
     Durability, EndpointId, Graph, Node, NodeSettings, Qos, RawClient, RawMailbox, RawPublisher,
-    Reliability,
 };
 use periplus_msgs::TypeRegistry;
 use periplus_os::{Stopwatch, unix_ns};
@@ -19,8 +18,10 @@ use periplus_ros1::{
     SystemState, message_definition, ros1_type, ros2_service_type, ros2_type, service_definition,
 };
 use periplus_session::{LiveGraph, stop};
+use periplus_transport::Bell;
 
 use crate::error::CliError;
+use crate::offered_qos::strongest_request;
 use crate::terminal;
 
 /// Period at which topics and services are compared.
@@ -37,9 +38,6 @@ const NODE: &str = "ros_bridge";
 
 /// Topics that belong to one network.
 const NOT_BRIDGED: [&str; 2] = ["/rosout_agg", "/parameter_events"];
-
-/// Set when a message has arrived.
-type Bell = Arc<(Mutex<bool>, Condvar)>;
 
 /// A network with its graph and the node of the bridge.
 struct Side {
@@ -79,7 +77,8 @@ struct Bridge {
     relays: BTreeMap<(String, Way), Relay>,
     /// Keeps a service in the graph where it is offered.
     services: BTreeMap<(String, Way), periplus_graph::RawCalls>,
-    bell: Bell,
+    /// Rings when a message has arrived.
+    bell: Arc<Bell>,
     is_all: bool,
 }
 
@@ -123,10 +122,7 @@ impl Bridge {
                 side.live.graph.advance_to(unix_ns());
                 side.live.print_findings();
             }
-            let (due, rung) = &*self.bell;
-            let due = due.lock().unwrap_or_else(PoisonError::into_inner);
-            let waited = rung.wait_timeout_while(due, LONGEST_SLEEP, |due| !*due);
-            *waited.unwrap_or_else(PoisonError::into_inner).0 = false;
+            self.bell.wait(LONGEST_SLEEP);
         }
         Ok(())
     }
@@ -136,15 +132,12 @@ impl Bridge {
         let Some(ros1) = &self.one.live.ros1 else { return Ok(()) };
         // A master that does not answer changes nothing.
         let Ok(state) = ros1.client().system_state() else { return Ok(()) };
+        let state = state.without(&BTreeSet::from([format!("/{NODE}")]));
         let remote = self.two.live.wire.remote();
-        let own = format!("/{NODE}");
-        let others = |all: &[(String, Vec<String>)]| -> BTreeSet<String> {
-            let topics = all.iter().filter(|(_, nodes)| nodes.iter().any(|node| *node != own));
-            topics.map(|(name, _)| name.clone()).collect()
-        };
-        let (published, subscribed) = (others(&state.publishers), others(&state.subscribers));
+        let subscribed: BTreeSet<&String> =
+            state.subscribers.iter().map(|(name, _)| name).collect();
         let mut wanted: BTreeMap<(String, Way), (String, Qos)> = BTreeMap::new();
-        for name in &published {
+        for (name, _) in &state.publishers {
             let is_heard = remote.topic(name).is_some_and(|topic| !topic.subscriptions.is_empty());
             if let Some(of) = type_in(&state, name)
                 && (is_heard || self.is_all)
@@ -156,8 +149,8 @@ impl Bridge {
             let Some(of) = topic.type_names.first() else { continue };
             let is_known = ros1_type(of).is_some_and(|of| message_definition(&of).is_some());
             if is_known && (subscribed.contains(&topic.name) || self.is_all) {
-                let offers: Vec<Qos> = topic.publishers.iter().map(|one| one.qos).collect();
-                wanted.insert((topic.name.clone(), Way::To1), (of.clone(), request(&offers)));
+                let qos = strongest_request(topic.publishers.iter().map(|one| &one.qos));
+                wanted.insert((topic.name.clone(), Way::To1), (of.clone(), qos));
             }
         }
         wanted.retain(|(name, _), _| !NOT_BRIDGED.contains(&name.as_str()));
@@ -195,10 +188,7 @@ impl Bridge {
                 return Ok(());
             }
         };
-        heard.on_message(move || {
-            *bell.0.lock().unwrap_or_else(PoisonError::into_inner) = true;
-            bell.1.notify_one();
-        });
+        heard.on_message(move || bell.ring());
         terminal::say(&format!("{}: {name} ({of})", way.shown()));
         self.relays.insert(key, Relay { heard, type_name: of, publisher: None });
         Ok(())
@@ -249,12 +239,8 @@ impl Bridge {
 
     /// Offers the services of each side on the other.
     fn offer_services(&mut self, state: &SystemState) {
-        let own = format!("/{NODE}");
         let mut wanted: BTreeMap<(String, Way), String> = BTreeMap::new();
-        for (name, nodes) in &state.services {
-            if nodes.iter().all(|node| *node == own) {
-                continue;
-            }
+        for (name, _) in &state.services {
             let key = (name.clone(), Way::To2);
             if self.services.contains_key(&key) {
                 // The server states its type once.
@@ -316,18 +302,6 @@ fn relay_service(
 fn type_in(state: &SystemState, topic: &str) -> Option<String> {
     let of = ros2_type(state.topic_types.get(topic)?)?;
     TypeRegistry::builtin().layout(&of).map(|_| of)
-}
-
-/// Strongest QoS that all publishers offer.
-fn request(offers: &[Qos]) -> Qos {
-    let mut qos = Qos::reliable(100);
-    if offers.iter().any(|offer| offer.reliability == Reliability::BestEffort) {
-        qos = qos.with_reliability(Reliability::BestEffort);
-    }
-    if offers.iter().all(|offer| offer.durability == Durability::TransientLocal) {
-        qos = qos.with_durability(Durability::TransientLocal);
-    }
-    qos
 }
 
 /// QoS with which a message is published again: retained if it was.

@@ -7,7 +7,7 @@ use periplus_msgs::{Layout, TypeRegistry};
 use periplus_ros1::ros2_service_type;
 use periplus_ros2cli::service;
 
-use super::{client, failed};
+use super::{client, failed, full};
 use crate::error::CliError;
 use crate::run_options::Ros1Use;
 use crate::verbs::{Common, with_session};
@@ -26,8 +26,7 @@ pub(crate) struct CallOptions {
 
 pub(super) fn run(options: &CallOptions) -> Result<ExitCode, CliError> {
     let client = client()?;
-    let name = &options.service;
-    let name = if name.starts_with('/') { name.clone() } else { format!("/{name}") };
+    let name = full(&options.service);
     let of = client.service_type(&name).map_err(|error| failed(&client, error))?;
     let of = ros2_service_type(&of)
         .ok_or_else(|| CliError::failed(format!("{name} has the type `{of}`, which is none")))?;

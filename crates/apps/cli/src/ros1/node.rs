@@ -11,7 +11,7 @@ use periplus_os::{Stopwatch, sleep};
 use periplus_ros1::{MasterClient, RpcError, SystemState, ask};
 use periplus_session::stop;
 
-use super::{CALLER, client, failed};
+use super::{CALLER, client, failed, full};
 use crate::error::CliError;
 use crate::terminal;
 
@@ -115,11 +115,6 @@ pub(super) fn run(command: &NodeCommand) -> Result<ExitCode, CliError> {
 
 fn code_of(is_done: bool) -> ExitCode {
     if is_done { ExitCode::SUCCESS } else { ExitCode::FAILURE }
-}
-
-/// Full name of a node.
-fn full(name: &str) -> String {
-    if name.starts_with('/') { name.to_owned() } else { format!("/{name}") }
 }
 
 fn nodes_of(state: &SystemState) -> BTreeSet<String> {

@@ -9,7 +9,7 @@ use periplus_os::Machine;
 use periplus_resources::Host as _;
 use periplus_ros1::{MasterClient, RpcError, XmlRpcValue};
 
-use super::{client, failed, yaml};
+use super::{client, failed, full, yaml};
 use crate::error::CliError;
 
 /// Read and write the parameters of a ROS 1 master
@@ -143,9 +143,4 @@ fn read(file: &Path) -> Result<String, CliError> {
     };
     let bytes = Machine.read(file).map_err(|error| failed(&error))?;
     String::from_utf8(bytes).map_err(|_| failed(&"it is not UTF-8"))
-}
-
-/// Full name of a parameter.
-fn full(name: &str) -> String {
-    if name.starts_with('/') { name.to_owned() } else { format!("/{name}") }
 }

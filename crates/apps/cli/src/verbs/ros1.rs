@@ -8,8 +8,8 @@ use periplus_diagnostics::Diagnostics;
 use periplus_graph::{Graph, Qos};
 use periplus_os::{Machine, Stopwatch, sleep};
 use periplus_ros1::{
-    MasterUse, Ros1Reach, Ros1Transport, Settings, SystemState, ros1_type, ros2_service_type,
-    ros2_type,
+    MasterUse, Ros1Reach, Ros1Transport, Settings, SystemState, node_name, ros1_type,
+    ros2_service_type, ros2_type,
 };
 use periplus_ros2cli::{Network, Progress, Seen, SeenNode, SeenService, SeenTopic, TopicEndpoint};
 
@@ -62,7 +62,7 @@ impl Ros1Connection {
         let now = self.wire.client().system_state();
         let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
         // A master that does not answer leaves what is known.
-        if let Ok(now) = now
+        if let Ok(now) = now.map(|now| now.without(&self.own_nodes()))
             && now != state.last
         {
             state.last = now;
@@ -74,7 +74,7 @@ impl Ros1Connection {
     /// Names of the command's own nodes in ROS 1.
     fn own_nodes(&self) -> BTreeSet<String> {
         let nodes = self.graph.nodes().into_iter();
-        nodes.map(|node| node.name.replace("/_", "/")).collect()
+        nodes.map(|node| node_name(&node.name)).collect()
     }
 }
 
@@ -84,7 +84,6 @@ impl Network for Ros1Connection {
     }
 
     fn seen(&self) -> Seen {
-        let own = self.own_nodes();
         let mut state = self.refresh();
         let State { last, service_types, .. } = &mut *state;
         for (service, _) in &last.services {
@@ -94,14 +93,11 @@ impl Network for Ros1Connection {
                 service_types.insert(service.clone(), of);
             }
         }
-        let others = |nodes: &[String]| -> Vec<String> {
-            nodes.iter().filter(|node| !own.contains(*node)).cloned().collect()
-        };
         let mut topics: BTreeMap<&str, SeenTopic> = BTreeMap::new();
         let mut nodes: BTreeSet<String> = BTreeSet::new();
         for (is_publisher, all) in [(true, &last.publishers), (false, &last.subscribers)] {
             for (name, ends) in all {
-                let mut ends = others(ends);
+                let mut ends = ends.clone();
                 if !is_publisher && let Some(connected) = self.wire.subscribers_of(name) {
                     // A subscriber that is not connected yet would miss a message.
                     ends.retain(|node| connected.contains(node));
@@ -133,13 +129,10 @@ impl Network for Ros1Connection {
         }
         let mut services = Vec::new();
         for (name, servers) in &last.services {
-            let servers = others(servers);
             nodes.extend(servers.iter().cloned());
-            if servers.is_empty() {
-                continue;
-            }
             let types = service_types.get(name).cloned().flatten().into_iter().collect();
-            services.push(SeenService { name: name.clone(), types, servers, clients: Vec::new() });
+            let (name, servers) = (name.clone(), servers.clone());
+            services.push(SeenService { name, types, servers, clients: Vec::new() });
         }
         services.sort_by(|a, b| a.name.cmp(&b.name));
         let nodes = nodes.into_iter().map(|name| SeenNode { name });

@@ -1,6 +1,6 @@
 //! Figure of a person from simple shapes: a lidar at the height of the knees sees two legs that swing.
 //!
-//! It is 1.75 m tall: two legs of 0.85 m with a radius of 0.07 m, 0.2 m apart, a trunk of 0.6 m, a neck and a head. The
+//! It is 1.75 m tall: two legs of 0.85 m with a radius of 0.07 m, 0.2 m apart, a torso of 0.6 m, a neck and a head. The
 //! legs swing about the hips by the walked distance: a stride, of two steps, has 1.5 m.
 
 use periplus_geometry::{DVec3, Pose, Rpy};
@@ -46,7 +46,7 @@ pub(crate) fn figure_links(name: &str) -> Vec<Link> {
     let letters = name.bytes().fold(0_usize, |sum, letter| sum * 31 % 997 + usize::from(letter));
     let (shirt, trousers) = (CLOTHES_RATIO[letters % 5], CLOTHES_RATIO[5]);
     let mut body = Link::new("upper_body");
-    add(&mut body, "trunk", Shape::Box { size_m: DVec3::new(0.24, 0.42, 0.6) }, 1.15, shirt);
+    add(&mut body, "torso", Shape::Box { size_m: DVec3::new(0.24, 0.42, 0.6) }, 1.15, shirt);
     add(&mut body, "neck", Shape::Cylinder { radius_m: 0.05, length_m: 0.1 }, 1.5, SKIN_RATIO);
     add(&mut body, "head", Shape::Sphere { radius_m: 0.12 }, 1.63, SKIN_RATIO);
     let leg = |name: &str, side: f64| {

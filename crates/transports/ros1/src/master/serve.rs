@@ -9,6 +9,7 @@ use super::notify::Notifier;
 use super::rosout::Rosout;
 use super::state::MasterState;
 use crate::error::Ros1Error;
+use crate::rpc::uri_host;
 use crate::server::{Handler, Server};
 use crate::xmlrpc::{RpcCall, RpcFault, XmlRpcValue};
 
@@ -53,7 +54,7 @@ impl Master {
             let state = Mutex::new(MasterState::new(uri));
             Arc::new(MasterHandler { state, notifier: Notifier::default() })
         };
-        let shown = if host.contains(':') { format!("[{host}]") } else { host.to_owned() };
+        let shown = uri_host(host);
         // A free port is known only afterwards.
         let serving = handler(&format!("http://{shown}:{port}/"));
         let server = Server::open(address, port, serving.clone()).map_err(|error| {

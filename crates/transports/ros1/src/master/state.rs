@@ -290,7 +290,7 @@ impl MasterState {
 }
 
 /// Methods with parameters.
-const METHODS: [&str; 17] = [
+const METHODS: [&str; 16] = [
     "registerService",
     "unregisterService",
     "registerSubscriber",
@@ -307,7 +307,6 @@ const METHODS: [&str; 17] = [
     "subscribeParam",
     "unsubscribeParam",
     "hasParam",
-    "getParamNames",
 ];
 
 fn tell(changes: Vec<Change>, out: &mut Vec<Notification>) {

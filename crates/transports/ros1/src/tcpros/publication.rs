@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use periplus_transport::lock;
 
-use super::{Frame, Header};
+use super::{Frame, Header, keep_alive};
 use crate::names::Ros1Type;
 
 /// Maximum size of the messages that wait for one subscriber; the newest is kept in any case.
@@ -170,8 +170,7 @@ impl Publication {
         // A slow subscriber may take as long as it wants: its messages are dropped, not the connection.
         stream.set_write_timeout(None)?;
         stream.set_read_timeout(Some(Duration::from_millis(1)))?;
-        let keepalive = socket2::TcpKeepalive::new().with_time(Duration::from_secs(60));
-        socket2::SockRef::from(&stream).set_tcp_keepalive(&keepalive)?;
+        keep_alive(&stream)?;
         let link = Arc::new(Link {
             peer: header.get("callerid").to_owned(),
             queue: Mutex::default(),
@@ -298,6 +297,6 @@ impl Link {
     }
 }
 
-pub(super) fn is_timeout(error: &io::Error) -> bool {
+fn is_timeout(error: &io::Error) -> bool {
     matches!(error.kind(), io::ErrorKind::WouldBlock | io::ErrorKind::TimedOut)
 }

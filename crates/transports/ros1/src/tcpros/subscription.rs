@@ -10,7 +10,7 @@ use std::time::Duration;
 
 use periplus_transport::lock;
 
-use super::{Header, MAX_MESSAGE_BYTES, read_frame_after, read_header};
+use super::{Header, MAX_MESSAGE_BYTES, keep_alive, read_frame_after, read_header};
 use crate::names::Ros1Type;
 use crate::rpc::{self, RpcError};
 use crate::xmlrpc::XmlRpcValue;
@@ -198,8 +198,7 @@ impl Shared {
         }
         let mut receive = self.receiver.begin(publisher, &header).map_err(End::Refused)?;
         stream.set_read_timeout(None)?;
-        let keepalive = socket2::TcpKeepalive::new().with_time(Duration::from_secs(60));
-        socket2::SockRef::from(&stream).set_tcp_keepalive(&keepalive)?;
+        keep_alive(&stream)?;
         let mut message = Vec::new();
         loop {
             read_frame_after(&mut reader, MAX_MESSAGE_BYTES, &mut message).map_err(|error| {

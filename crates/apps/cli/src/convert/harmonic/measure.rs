@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
+use periplus_geometry::normalize_angle;
 use periplus_graph::Sample;
 use periplus_migration::TopicAspect;
 use periplus_msgs::geometry_msgs::{Quaternion, Vector3};
@@ -182,11 +183,11 @@ fn odometry(pairs: &Pairs<Odometry>, measured: &mut Measured) {
     let (mut largest_m, mut largest_rad) = (0.0_f64, 0.0_f64);
     for pair in pairs.windows(2) {
         way_m += distance(position(&pair[0].0), position(&pair[1].0));
-        turn_rad += wrapped(yaw(&pair[1].0) - yaw(&pair[0].0)).abs();
+        turn_rad += normalize_angle(yaw(&pair[1].0) - yaw(&pair[0].0)).abs();
     }
     for (old, new) in pairs {
         largest_m = largest_m.max(distance(position(old), position(new)));
-        largest_rad = largest_rad.max(wrapped(yaw(old) - yaw(new)).abs());
+        largest_rad = largest_rad.max(normalize_angle(yaw(old) - yaw(new)).abs());
     }
     let percent = |largest: f64, whole: f64, least: f64| 100.0 * largest / whole.max(least);
     let tolerance = ODOMETRY_TOLERANCE_PERCENT;
@@ -468,12 +469,6 @@ fn yaw(q: &Quaternion) -> f64 {
     libm::atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z))
 }
 
-/// Angle in -pi to pi \[rad\].
-fn wrapped(angle: f64) -> f64 {
-    let turns = (angle / std::f64::consts::TAU).round();
-    angle - turns * std::f64::consts::TAU
-}
-
 /// Angle between two rotations \[rad\].
 fn angle_between(a: &Quaternion, b: &Quaternion) -> f64 {
     let dot = a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w;
@@ -488,7 +483,7 @@ mod tests {
     fn angles_are_wrapped_and_measured() {
         let turned = Quaternion { x: 0.0, y: 0.0, z: 1.0, w: 0.0 };
         assert!((yaw(&turned).abs() - std::f64::consts::PI).abs() < 1e-12);
-        assert!(wrapped(std::f64::consts::TAU).abs() < 1e-12);
+        assert!(normalize_angle(std::f64::consts::TAU).abs() < 1e-12);
         let identity = Quaternion { x: 0.0, y: 0.0, z: 0.0, w: 1.0 };
         assert!((angle_between(&identity, &turned) - std::f64::consts::PI).abs() < 1e-12);
         assert!(angle_between(&turned, &turned) < 1e-7);
