@@ -1,6 +1,7 @@
 //! Index of the messages of a block.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use crate::read::{Block, Kind};
 use crate::record::{Cursor, op, parse_message_index};
@@ -72,10 +73,44 @@ pub(super) fn from_messages(
     index
 }
 
+/// The first entries of a topic with `start <= t < end`, at most `limit`.
+pub(super) fn in_span<'a>(
+    index: &'a [IndexEntry],
+    topic: usize,
+    span: &Range<u64>,
+    limit: usize,
+) -> &'a [IndexEntry] {
+    let entries = of_topic(index, topic);
+    let from = entries.partition_point(|one| one.time < span.start);
+    let entries = &entries[from..];
+    let until = entries.partition_point(|one| one.time < span.end);
+    &entries[..until.min(limit)]
+}
+
 /// Entries of a topic.
 pub(super) fn of_topic(index: &[IndexEntry], topic: usize) -> &[IndexEntry] {
     let Ok(topic) = u32::try_from(topic) else { return &[] };
     let start = index.partition_point(|one| one.topic < topic);
     let length = index[start..].partition_point(|one| one.topic == topic);
     &index[start..start + length]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_page_takes_no_more_of_a_large_chunk_than_it_returns() {
+        let entry = |topic, time| IndexEntry { topic, time, at: 0 };
+        let mut index: BlockIndex =
+            (0..1000).flat_map(|time| [entry(0, time), entry(1, time)]).collect();
+        index.sort_unstable();
+        let times = |span: Range<u64>, limit| -> Vec<u64> {
+            in_span(&index, 1, &span, limit).iter().map(|one| one.time).collect()
+        };
+        assert_eq!(times(10..1000, 3), [10, 11, 12]);
+        assert_eq!(times(998..2000, 3), [998, 999]);
+        assert!(times(5..5, 3).is_empty());
+        assert!(in_span(&index, 2, &(0..9), 3).is_empty());
+    }
 }

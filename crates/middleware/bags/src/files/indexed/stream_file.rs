@@ -10,7 +10,9 @@ use periplus_os::fs::{File, read_exact_at};
 
 use super::location::MessageLocation;
 use super::lock;
-use super::message_index::{BlockIndex, IndexEntry, from_messages, from_records, of_topic};
+use super::message_index::{
+    BlockIndex, IndexEntry, from_messages, from_records, in_span, of_topic,
+};
 use crate::files::BagError;
 use crate::files::temporary::Temporary;
 use crate::read::Block;
@@ -135,9 +137,9 @@ impl StreamFile {
         found: &mut Vec<MessageLocation>,
     ) -> Result<(), BagError> {
         let unsigned = |time_ns: i64| u64::try_from(time_ns).unwrap_or(0);
-        let (start, end) = (unsigned(span_ns.start), unsigned(span_ns.end));
+        let span = unsigned(span_ns.start)..unsigned(span_ns.end);
         let mut own: Vec<MessageLocation> = Vec::new();
-        for block in self.blocks_of(topics, start..end) {
+        for block in self.blocks_of(topics, span.clone()) {
             if own.len() >= limit {
                 own.sort_unstable();
                 own.truncate(limit);
@@ -148,10 +150,7 @@ impl StreamFile {
             }
             let Some(index) = self.index(block)? else { continue };
             for &topic in topics {
-                let entries = of_topic(&index, topic);
-                let from = entries.partition_point(|one| one.time < start);
-                let until = entries.partition_point(|one| one.time < end);
-                let entries = entries.get(from..until).unwrap_or_default();
+                let entries = in_span(&index, topic, &span, limit);
                 own.extend(entries.iter().map(|one| self.location(one, block, file)));
             }
         }
