@@ -29,6 +29,7 @@ mod pictures;
 mod platforms;
 mod python;
 mod rays;
+mod results;
 mod ros1;
 mod ros2;
 mod runs;

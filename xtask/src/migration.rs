@@ -107,8 +107,7 @@ impl Work {
         let mut command = Command::new(&self.program);
         command.arg("convert").arg(file).arg("--resource-path").arg(self.repository(file, corpus));
         let shown = file.display().to_string();
-        for (name, arguments) in ARGUMENTS.iter().filter(|(name, _)| shown.contains(name)) {
-            debug_assert!(!name.is_empty());
+        for (_, arguments) in ARGUMENTS.iter().filter(|(name, _)| shown.contains(name)) {
             command.args(*arguments);
         }
         command.arg("--resource-path").arg(corpus.join("gazebo_models"));

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
+use crate::results;
 use crate::step::{Failed, cargo, root, run};
 
 /// Duration of each load \[s\].
@@ -86,7 +87,7 @@ pub(crate) fn bench() -> Result<(), Failed> {
         }
     }
     print!("{table}");
-    write(&table)
+    results::write("ros1", "ros1", &table)
 }
 
 fn command(program: &Path) -> Command {
@@ -114,18 +115,4 @@ fn figures(child: Child) -> Result<Figures, Failed> {
         .map_err(|error| Failed(format!("a peer printed `{text}`: {error}")))?;
     let number = |name: &str| json[name].as_f64().unwrap_or_default();
     Ok(Figures { messages: number("messages"), cpu_s: number("cpu_s") })
-}
-
-/// Puts the table where the old one was, or at the end.
-fn write(table: &str) -> Result<(), Failed> {
-    const START: &str = "<!-- ros1: written by `cargo xtask bench ros1` -->\n";
-    const END: &str = "<!-- end of ros1 -->\n";
-    let path = root().join("benches/RESULTS.md");
-    let failed = |error| Failed(format!("{}: {error}", path.display()));
-    let text = std::fs::read_to_string(&path).map_err(failed)?;
-    let (before, after) = match (text.split_once(START), text.split_once(END)) {
-        (Some((before, _)), Some((_, after))) => (before, after),
-        _ => (&*text, ""),
-    };
-    std::fs::write(&path, format!("{before}{START}\n{table}\n{END}{after}")).map_err(failed)
 }

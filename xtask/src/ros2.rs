@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::process::Stdio;
 
+use crate::results;
 use crate::step::{Failed, cargo, root, run};
 
 /// The Python with Cyclone DDS; that of `.venv`, or `python3`, when it is not set.
@@ -55,21 +56,7 @@ fn measure(part: &str, command: &str, is_quick: bool) -> Result<(), Failed> {
     let table = String::from_utf8_lossy(&output.stdout);
     println!("{table}");
     if !is_quick && !table.is_empty() {
-        write(part, command, &table)?;
+        results::write(&format!("ros2 {part}"), command, &table)?;
     }
     if output.status.success() { Ok(()) } else { Err(Failed("see above".to_owned())) }
-}
-
-/// Puts a table where the old one was, or at the end.
-fn write(part: &str, command: &str, table: &str) -> Result<(), Failed> {
-    let start = format!("<!-- ros2 {part}: written by `cargo xtask bench {command}` -->\n");
-    let end = format!("<!-- end of ros2 {part} -->\n");
-    let path = root().join("benches/RESULTS.md");
-    let failed = |error| Failed(format!("{}: {error}", path.display()));
-    let text = std::fs::read_to_string(&path).map_err(failed)?;
-    let (before, after) = match (text.split_once(&start), text.split_once(&end)) {
-        (Some((before, _)), Some((_, after))) => (before, after),
-        _ => (&*text, ""),
-    };
-    std::fs::write(&path, format!("{before}{start}\n{table}\n{end}{after}")).map_err(failed)
 }

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
+use crate::results;
 use crate::step::{Failed, cargo, root};
 
 /// The Python that has the peers; `python3` when it is not set.
@@ -41,19 +42,5 @@ pub(crate) fn bench(only: Option<&str>) -> Result<(), Failed> {
         return Err(Failed("the race failed, see above".to_owned()));
     }
     // A part of it is not a result.
-    if only.is_none() { write(&tables) } else { Ok(()) }
-}
-
-/// Puts the tables where the old ones were, or at the end.
-fn write(tables: &str) -> Result<(), Failed> {
-    const START: &str = "<!-- wire: written by `cargo xtask bench wire` -->\n";
-    const END: &str = "<!-- end of wire -->\n";
-    let path = root().join("benches/RESULTS.md");
-    let failed = |error| Failed(format!("{}: {error}", path.display()));
-    let text = std::fs::read_to_string(&path).map_err(failed)?;
-    let (before, after) = match (text.split_once(START), text.split_once(END)) {
-        (Some((before, _)), Some((_, after))) => (before, after),
-        _ => (&*text, ""),
-    };
-    std::fs::write(&path, format!("{before}{START}\n{tables}\n{END}{after}")).map_err(failed)
+    if only.is_none() { results::write("wire", "wire", &tables) } else { Ok(()) }
 }

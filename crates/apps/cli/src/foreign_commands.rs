@@ -81,6 +81,14 @@ pub(crate) fn become_words(ours: &[&str], rest: Vec<String>) -> Reading {
 }
 
 impl Reading {
+    /// Uses ROS 1 if a master answers: the option comes after the verbs of the command.
+    pub(crate) fn on_ros1(mut self, verbs: usize) -> Self {
+        if let Self::Words { words, .. } = &mut self {
+            words.insert(verbs, "--ros1=auto".to_owned());
+        }
+        self
+    }
+
     /// Adds a note, if there is a command to run.
     pub(crate) fn noting(mut self, note: impl Into<String>) -> Self {
         if let Self::Words { notes, .. } = &mut self {

@@ -41,7 +41,7 @@ fn save(options: &SaveOptions, ros: &[String]) -> Result<ExitCode, CliError> {
     let timeout = options.timeout.map(Duration::from_secs_f64);
     match map::saver_command(&options.words, ros, options.distro, timeout) {
         SaverCommand::Save(save) => {
-            let common = Common { ros1: options.ros1, ..Common::default() };
+            let common = Common { network: options.network, ..Common::default() };
             with_session(&common, |session| map::save(session, &save))
         }
         SaverCommand::Help(text) => {

@@ -153,7 +153,7 @@ pub(crate) struct Ros1Options {
 }
 
 /// Option of commands whose nodes are either in ROS 2 or in ROS 1.
-#[derive(Clone, Copy, Debug, Args)]
+#[derive(Clone, Copy, Debug, Default, Args)]
 pub(crate) struct LiveNetworkOptions {
     /// Use ROS 1 in place of ROS 2, with the master at ROS_MASTER_URI; `--ros1=auto` only if a
     /// master answers there
@@ -170,33 +170,30 @@ pub(crate) struct LiveNetworkOptions {
 
 /// When a command uses ROS 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Ros1Use {
+enum Ros1Use {
     /// In any case
     On,
     /// If a master answers
     Auto,
 }
 
-impl Ros1Use {
+impl LiveNetworkOptions {
+    /// ROS 1 in any case.
+    pub(crate) const ROS1: Self = Self { ros1: Some(Ros1Use::On) };
+
     /// Returns true if ROS 1 is used; prints a note if it was requested and is not.
-    pub(crate) fn applies(self) -> bool {
-        let applies = self == Self::On || has_master();
+    pub(crate) fn is_ros1(self) -> bool {
+        let Some(choice) = self.ros1 else { return false };
+        let applies = choice == Ros1Use::On || has_master();
         if !applies {
             terminal::say("no ROS 1 master answers: using ROS 2");
         }
         applies
     }
-}
-
-impl LiveNetworkOptions {
-    /// The choice, for a part of the command with an option of the same name.
-    pub(crate) fn choice(self) -> Option<Ros1Use> {
-        self.ros1
-    }
 
     /// Joins the network of the command.
     pub(crate) fn open(self, arguments: Arguments) -> Result<LiveGraph, CliError> {
-        if self.ros1.is_some_and(Ros1Use::applies) {
+        if self.is_ros1() {
             Ok(LiveGraph::open_ros1(arguments)?)
         } else {
             Ok(LiveGraph::open(arguments)?)

@@ -28,7 +28,6 @@ use periplus_session::stop;
 
 use crate::error::CliError;
 use crate::foreign_commands;
-use crate::run_options::Ros1Use;
 use crate::terminal;
 
 pub(crate) use action::ActionOptions;
@@ -50,7 +49,7 @@ pub(crate) fn with_session(
     verb: impl FnOnce(&mut Session<'_>) -> Outcome,
 ) -> Result<ExitCode, CliError> {
     let types = types(common)?;
-    if common.ros1.is_some_and(Ros1Use::applies) {
+    if common.network.is_ros1() {
         let mut connection = Ros1Connection::open().map_err(CliError::failed)?;
         let outcome = run_verb(&connection, &types, common, verb);
         tell(&connection.take_findings())?;

@@ -12,7 +12,7 @@
 //! let bytes = Machine.read(Path::new("Cargo.toml")).expect("the manifest of this crate");
 //! assert!(bytes.starts_with(b"[package]"));
 //! let variables = [("ROS_DOMAIN_ID".to_owned(), Some("7".to_owned()))].into();
-//! let host = Overlay { variables };
+//! let host = Overlay { variables, ..Overlay::default() };
 //! assert_eq!(host.variable("ROS_DOMAIN_ID").as_deref(), Some("7"));
 //! ```
 

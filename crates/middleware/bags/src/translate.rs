@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use periplus_diagnostics::{Diagnostic, Diagnostics, SourceMap};
+use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_msgs::{Adaptation, Format, Layout, RecodeError, Recoding, TypeRegistry};
-use periplus_rosidl::{InterfaceDialect, InterfaceKind, Registry, TypeName};
+use periplus_rosidl::{InterfaceDialect, InterfaceKind, TypeName};
 
 use crate::{BagTopic, QosProfile, Style, qos};
 
@@ -186,21 +186,12 @@ fn adapted(topic: &BagTopic, type_name: &str, adaptation: &Adaptation) -> Diagno
 
 /// Types defined by the topic's own schema.
 fn own_types(topic: &BagTopic, type_name: &str) -> TypeRegistry {
-    let mut registry = Registry::new();
     let dialect = match topic.schema_encoding.as_str() {
-        "ros2msg" => Some(InterfaceDialect::Ros2),
-        "ros1msg" => Some(InterfaceDialect::Ros1),
-        _ => None,
+        "ros2msg" => InterfaceDialect::Ros2,
+        "ros1msg" => InterfaceDialect::Ros1,
+        _ => return TypeRegistry::default(),
     };
-    // Errors in the schema show as an unknown type.
-    let mut findings = Diagnostics::new();
-    if let (Some(dialect), Some(name)) = (dialect, TypeName::read(type_name)) {
-        let mut sources = SourceMap::new();
-        let text = String::from_utf8_lossy(&topic.schema).into_owned();
-        let file = sources.add(format!("schema of {}", topic.name), text);
-        registry.add_schema(&name, file, &sources, dialect, &mut findings);
-    }
-    TypeRegistry::new(registry, &mut findings)
+    TypeRegistry::of_schema(type_name, &String::from_utf8_lossy(&topic.schema), dialect)
 }
 
 /// The topic with its type as known in the target; none if there is none.

@@ -4,9 +4,9 @@ mod log;
 
 use std::sync::Arc;
 
-use periplus_diagnostics::{Diagnostics, SourceMap};
+use periplus_diagnostics::Diagnostics;
 use periplus_msgs::{Format, Layout, RecodeError, Recoding, TypeRegistry};
-use periplus_rosidl::{InterfaceDialect, Registry, TypeName};
+use periplus_rosidl::{InterfaceDialect, TypeName};
 
 /// Log messages of ROS 2.
 const LOG: &str = "rcl_interfaces/msg/Log";
@@ -45,7 +45,7 @@ impl Codec {
     /// From ROS 1 to the type of the graph, for a type that this program knows only from the definition in a
     /// publisher's header; none if the definition cannot be read.
     pub(crate) fn from_definition(ros2: &str, definition: &str) -> Option<Self> {
-        let types = types_of(ros2, definition);
+        let types = TypeRegistry::of_schema(ros2, definition, InterfaceDialect::Ros1);
         let source = types.layout(ros2)?;
         let other = TypeRegistry::new(types.registry().for_ros2(), &mut Diagnostics::new());
         let target = TypeRegistry::builtin().layout(ros2).or_else(|| other.layout(ros2))?;
@@ -60,18 +60,6 @@ impl Codec {
             Self::LogToRos2 => log::to_ros2(message, out),
         }
     }
-}
-
-/// Types in a definition as ROS 1 sends it.
-fn types_of(name: &str, definition: &str) -> TypeRegistry {
-    let mut registry = Registry::new();
-    let mut findings = Diagnostics::new();
-    if let Some(name) = TypeName::read(name) {
-        let mut sources = SourceMap::new();
-        let file = sources.add("definition", definition);
-        registry.add_schema(&name, file, &sources, InterfaceDialect::Ros1, &mut findings);
-    }
-    TypeRegistry::new(registry, &mut findings)
 }
 
 /// Converts the requests and responses of a service.

@@ -1,5 +1,7 @@
 //! Peers that break off, stall, lie about lengths, or ask for other types: a run goes on.
 
+mod common;
+
 use std::io::{Read as _, Write as _};
 use std::net::{Shutdown, TcpStream};
 use std::sync::Arc;
@@ -7,26 +9,13 @@ use std::time::Duration;
 
 use periplus_graph::{Graph, NodeSettings, Publisher, Qos};
 use periplus_msgs::std_msgs;
-use periplus_os::{Stopwatch, sleep};
+use periplus_os::sleep;
 use periplus_ros1::{
     Header, Master, MasterClient, MasterUse, Ros1Transport, RpcError, Settings, XmlRpcValue, ask,
     message_definition,
 };
 
-/// Longest wait for something; usually it takes some milliseconds.
-const PATIENCE: Duration = Duration::from_secs(20);
-
-#[track_caller]
-fn wait_for<T>(mut wanted: impl FnMut() -> Option<T>) -> T {
-    let clock = Stopwatch::start();
-    loop {
-        if let Some(found) = wanted() {
-            return found;
-        }
-        assert!(clock.elapsed() < PATIENCE, "it did not happen");
-        sleep(Duration::from_millis(5));
-    }
-}
+use common::{PATIENCE, wait_for};
 
 /// A node that publishes texts on `/chatter`.
 struct Talker {

@@ -1,28 +1,15 @@
 //! Two graphs that meet through a master, over sockets of this machine.
 
+mod common;
+
 use std::sync::mpsc::channel;
-use std::time::Duration;
 
 use periplus_graph::{Graph, NodeSettings, Qos};
 use periplus_msgs::std_srvs::{SetBool, SetBoolResponse};
 use periplus_msgs::{nav_msgs, std_msgs};
-use periplus_os::{Stopwatch, sleep};
 use periplus_ros1::{Master, MasterUse, Ros1Transport, Settings};
 
-/// Longest wait for a connection; usually it takes some milliseconds.
-const PATIENCE: Duration = Duration::from_secs(20);
-
-#[track_caller]
-fn wait_for<T>(mut wanted: impl FnMut() -> Option<T>) -> T {
-    let clock = Stopwatch::start();
-    loop {
-        if let Some(found) = wanted() {
-            return found;
-        }
-        assert!(clock.elapsed() < PATIENCE, "it did not happen");
-        sleep(Duration::from_millis(5));
-    }
-}
+use common::wait_for;
 
 fn master() -> Master {
     Master::open([127, 0, 0, 1].into(), "localhost", 0).expect("a port")

@@ -3,7 +3,6 @@
 mod compare;
 mod difference;
 mod drive;
-mod host;
 mod launch;
 mod measure;
 mod output;

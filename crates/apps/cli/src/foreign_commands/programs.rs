@@ -187,15 +187,13 @@ pub(super) fn run(package: &str, program: &str, rest: &[String], dialect: Dialec
 
 /// A command that uses ROS 1 if a master answers, in place of one that uses ROS 2.
 fn on_ros1(reading: Reading) -> Reading {
-    let Reading::Words { mut words, notes } = reading else { return reading };
+    let Reading::Words { words, .. } = &reading else { return reading };
     let own: Vec<&str> = words.iter().map(String::as_str).take(2).collect();
-    let verbs = match own.as_slice() {
-        ["map", "save" | "serve"] | ["tf", "echo" | "monitor" | "tree"] => 2,
-        ["localize" | "slam" | "teleop" | "view", ..] => 1,
-        _ => return Reading::Words { words, notes },
-    };
-    words.insert(verbs, "--ros1=auto".to_owned());
-    Reading::Words { words, notes }
+    match own.as_slice() {
+        ["map", "save" | "serve"] | ["tf", "echo" | "monitor" | "tree"] => reading.on_ros1(2),
+        ["localize" | "slam" | "teleop" | "view", ..] => reading.on_ros1(1),
+        _ => reading,
+    }
 }
 
 /// Translates a program by its name alone, as typed when its folder is on the PATH.

@@ -111,9 +111,7 @@ fn topic(verb: &str, rest: &[String]) -> Reading {
 
 /// An own verb that uses ROS 1 if a master answers.
 fn on_ros1(ours: &[&str], rest: Vec<String>) -> Reading {
-    let words = ours.iter().map(|word| (*word).to_owned());
-    let flag = ["--ros1=auto".to_owned()];
-    Reading::Words { words: words.chain(flag).chain(rest).collect(), notes: Vec::new() }
+    become_words(ours, rest).on_ros1(ours.len())
 }
 
 fn master(rest: &[String]) -> Reading {

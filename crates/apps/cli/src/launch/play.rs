@@ -17,7 +17,7 @@ use periplus_graph::Arguments;
 use periplus_launch::bringup::{LaunchRunner, Settings};
 use periplus_launch::{Dialect, LaunchPlan};
 use periplus_os::Stopwatch;
-use periplus_session::{PageContext, PageSettings};
+use periplus_session::{PageContext, PageSettings, Ros1Reach};
 use serde_json::json;
 
 use crate::error::CliError;
@@ -90,12 +90,13 @@ pub(super) fn play(
     options: &PlayOptions,
     search: &SearchOptions,
 ) -> Result<ExitCode, CliError> {
-    let bringup = runner(&launched, options, search);
+    let ros1 = options.ros1.reach();
+    let bringup = runner(&launched, options, ros1, search);
     // Without a network, an empty world provides the time.
     if bringup.world().is_some() || options.is_alone() {
-        simulated::run(launched, bringup, options, search)
+        simulated::run(launched, bringup, options, ros1, search)
     } else {
-        network::run(launched, bringup, options, search)
+        network::run(launched, bringup, options, ros1, search)
     }
 }
 
@@ -105,7 +106,7 @@ pub(super) fn preview(
     options: &PlayOptions,
     search: &SearchOptions,
 ) -> Result<ExitCode, CliError> {
-    let outcomes = runner(launched, options, search).preview();
+    let outcomes = runner(launched, options, options.ros1.reach(), search).preview();
     let mut out = anstream::AutoStream::auto(io::stdout().lock());
     if options.json {
         writeln!(out, "{:#}", json!({ "launch": outcomes }))?;
@@ -117,12 +118,17 @@ pub(super) fn preview(
     Ok(ExitCode::SUCCESS)
 }
 
-fn runner(launched: &Launched, options: &PlayOptions, search: &SearchOptions) -> LaunchRunner {
+fn runner(
+    launched: &Launched,
+    options: &PlayOptions,
+    ros1: Option<Ros1Reach>,
+    search: &SearchOptions,
+) -> LaunchRunner {
     let settings = Settings {
         search: terminal::search(&search.resource_path),
         dialect: launched.dialect,
         is_wired: false,
-        has_ros1_master: options.ros1.reach().is_some(),
+        has_ros1_master: ros1.is_some(),
         is_paced: !options.is_free() && !matches!(options.rtf, Some(Factor::Max)),
         guarding_command: own_command::own_command().to_vec(),
         tools: launched.tools.clone(),

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Subcommand};
 use periplus_maps::Distro;
 
-use crate::run_options::{LiveNetworkOptions, Ros1Use};
+use crate::run_options::LiveNetworkOptions;
 use crate::verbs::seconds;
 
 /// Save, serve, inspect, convert and compare maps
@@ -33,16 +33,8 @@ pub(crate) struct SaveOptions {
     /// Time to wait for the map [s] [default: 2; for ROS 1 unlimited]
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub(crate) timeout: Option<f64>,
-    /// Use ROS 1 in place of ROS 2, with the master at ROS_MASTER_URI; `--ros1=auto` only if a master answers there
-    #[arg(
-        long,
-        value_enum,
-        value_name = "on|auto",
-        num_args = 0..=1,
-        require_equals = true,
-        default_missing_value = "on"
-    )]
-    pub(crate) ros1: Option<Ros1Use>,
+    #[command(flatten)]
+    pub(crate) network: LiveNetworkOptions,
     /// Arguments of the saver: `-t TOPIC -f NAME --occ SHARE --free SHARE --fmt FORMAT --mode MODE`
     #[arg(trailing_var_arg = true, allow_hyphen_values = true, value_name = "WORD")]
     pub(crate) words: Vec<String>,

@@ -26,12 +26,7 @@ pub(super) fn run(options: &ServeOptions, ros: Vec<String>) -> Result<ExitCode, 
         say(&format!("`-f` saves a map; running `periplus map save -f {name}`"));
         let words = vec!["-f".to_owned(), name.clone()];
         return super::save(
-            &SaveOptions {
-                distro: options.distro,
-                timeout: None,
-                ros1: options.network.choice(),
-                words,
-            },
+            &SaveOptions { distro: options.distro, timeout: None, network: options.network, words },
             &ros,
         );
     }

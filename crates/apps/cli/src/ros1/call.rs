@@ -9,7 +9,7 @@ use periplus_ros2cli::service;
 
 use super::{client, failed, full};
 use crate::error::CliError;
-use crate::run_options::Ros1Use;
+use crate::run_options::LiveNetworkOptions;
 use crate::verbs::{Common, with_session};
 
 /// Call a service of ROS 1; its type comes from its server
@@ -33,7 +33,7 @@ pub(super) fn run(options: &CallOptions) -> Result<ExitCode, CliError> {
     let layout = TypeRegistry::ros1().layout(&format!("{of}_Request"));
     let layout = layout.ok_or_else(|| CliError::failed(format!("the type {of} is unknown")))?;
     let values = request(layout, &options.values).map_err(CliError::usage)?;
-    let common = Common { ros1: Some(Ros1Use::On), ..Common::default() };
+    let common = Common { network: LiveNetworkOptions::ROS1, ..Common::default() };
     with_session(&common, |session| service::call(session, &name, &of, &values, None))
 }
 

@@ -3,7 +3,7 @@
 use clap::Args;
 use periplus_ros2cli::QosRequest;
 
-use crate::run_options::Ros1Use;
+use crate::run_options::LiveNetworkOptions;
 
 #[derive(Clone, Debug, Default, Args)]
 pub(crate) struct Common {
@@ -17,16 +17,8 @@ pub(crate) struct Common {
     /// repeatable
     #[arg(long, value_name = "DIR")]
     pub(crate) interfaces: Vec<std::path::PathBuf>,
-    /// Use ROS 1, with the master at ROS_MASTER_URI; `--ros1=auto` only if a master answers there
-    #[arg(
-        long,
-        value_enum,
-        value_name = "on|auto",
-        num_args = 0..=1,
-        require_equals = true,
-        default_missing_value = "on"
-    )]
-    pub(crate) ros1: Option<Ros1Use>,
+    #[command(flatten)]
+    pub(crate) network: LiveNetworkOptions,
     /// Accepted for compatibility with scripts; there is no daemon
     #[arg(long, hide = true)]
     pub(crate) no_daemon: bool,

@@ -162,7 +162,7 @@ impl PythonNode {
         from: &Path,
         environment: &Environment,
     ) -> Option<Self> {
-        let host = Overlay { variables: environment.clone() };
+        let host = Overlay { variables: environment.clone(), ..Overlay::default() };
         let resolver = Resolver::new(&host, &search.folders);
         let path = resolver.find_package(package, from).ok()?;
         // A package of rosbuild has a manifest.xml.

@@ -26,6 +26,20 @@ impl TypeRegistry {
         Self { registry, types }
     }
 
+    /// Types that a schema defines: the text of a type and of all types that it needs, as bags and connections have it.
+    /// Faults show as unknown types.
+    #[must_use]
+    pub fn of_schema(type_name: &str, text: &str, dialect: InterfaceDialect) -> Self {
+        let mut registry = Registry::new();
+        let mut findings = Diagnostics::new();
+        if let Some(name) = TypeName::read(type_name) {
+            let mut sources = SourceMap::new();
+            let file = sources.add(format!("schema of {type_name}"), text);
+            registry.add_schema(&name, file, &sources, dialect, &mut findings);
+        }
+        Self::new(registry, &mut findings)
+    }
+
     /// Types of this crate.
     #[must_use]
     pub fn builtin() -> &'static Self {

@@ -54,7 +54,7 @@ impl Search {
     /// Runs a function with a context for reading files: the machine with the variables of the
     /// search, and a resolver over its folders.
     pub fn with_context<T>(&self, open_meshes: bool, run: impl FnOnce(&LoadContext<'_>) -> T) -> T {
-        let host = Overlay { variables: self.variables.clone() };
+        let host = Overlay { variables: self.variables.clone(), ..Overlay::default() };
         let resolver = Resolver::new(&host, &self.folders).advising(self.advice.clone());
         let working_folder = self.working_folder.clone();
         run(&LoadContext {

@@ -3,11 +3,11 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use periplus_migration::{ALL_TOPICS, BridgeFlow, TopicAspect};
+use periplus_os::Overlay;
 use serde::Serialize;
 
 use super::difference::{Deviation, Difference, Verdict};
 use super::drive::DRIVE_WORDS;
-use super::host::Overlay;
 use super::measure::measure;
 use super::project::{Project, folders};
 use super::record::{RunKind, RunLog, RunSetup, TopicLog, record};

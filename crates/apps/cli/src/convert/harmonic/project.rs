@@ -9,13 +9,12 @@ use periplus_migration::{
     BridgeEntry, ExpectedDifference, JointGeometry, Migrated, MigrationContext, MigrationEntry,
     MigrationOutcome, migrate,
 };
-use periplus_os::Machine;
+use periplus_os::{Machine, Overlay};
 use periplus_plugin_specs::{Family, library_id, sites};
 use periplus_resources::{Host as _, Resolver};
 use periplus_scene::Shape;
 use periplus_xml::{Element, decode, write_document};
 
-use super::host::Overlay;
 use crate::error::CliError;
 use crate::options::SearchOptions;
 use crate::terminal::working_folder;
@@ -268,7 +267,7 @@ impl Project {
     /// The machine with the new files in place of the old ones.
     pub(super) fn overlay(&self) -> Overlay {
         self.files.iter().fold(Overlay::default(), |overlay, file| {
-            overlay.with(file.path.clone(), file.text.clone())
+            overlay.with_text(file.path.clone(), file.text.clone())
         })
     }
 
@@ -280,8 +279,7 @@ impl Project {
 
 /// Folders of the search options.
 pub(super) fn folders(search: &SearchOptions) -> Vec<PathBuf> {
-    let working_folder = working_folder();
-    search.resource_path.iter().map(|folder| working_folder.join(folder)).collect()
+    crate::terminal::search(&search.resource_path).folders
 }
 
 pub(super) fn canonical(path: &Path) -> PathBuf {

@@ -7,6 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use periplus_geometry::Pose;
 use periplus_graph::{NodeSettings, Qos, RawMailbox, Sample, Sink, TopicInfo};
 use periplus_loader::LoadContext;
+use periplus_os::Overlay;
 use periplus_resources::Resolver;
 use periplus_scene::{Material, Model, builtin_material};
 use periplus_sim::{
@@ -15,7 +16,6 @@ use periplus_sim::{
 use periplus_xml::Element;
 
 use super::drive::{COMMAND_PERIOD_NS, CommandPublishers, DURATION_S};
-use super::host::Overlay;
 use crate::terminal::{processors, working_folder};
 
 /// Types whose messages are slow to compute: the first ones are enough.
@@ -110,7 +110,7 @@ const ROOM: &str = include_str!("room.sdf");
 /// Simulates a description.
 pub(super) fn record(setup: &RunSetup<'_>, overlay: Overlay) -> RunLog {
     let room = working_folder().join("periplus-comparison-room.sdf");
-    let host = overlay.with(room.clone(), ROOM.to_owned());
+    let host = overlay.with_text(room.clone(), ROOM.to_owned());
     let resolver = Resolver::new(&host, setup.folders);
     let context = LoadContext {
         host: &host,

@@ -9,7 +9,7 @@ use periplus_graph::{Node, NodeSettings};
 use periplus_launch::Dialect;
 use periplus_launch::bringup::LaunchRunner;
 use periplus_os::{Stopwatch, sleep};
-use periplus_session::{LiveGraph, Page, PageContext, stop};
+use periplus_session::{LiveGraph, Page, PageContext, Ros1Reach, stop};
 use serde_json::json;
 
 use super::log::LogPrinter;
@@ -34,6 +34,7 @@ pub(super) fn run(
     launched: Launched,
     mut bringup: LaunchRunner,
     options: &PlayOptions,
+    ros1: Option<Ros1Reach>,
     search: &SearchOptions,
 ) -> Result<ExitCode, CliError> {
     if options.record.is_some() {
@@ -42,7 +43,7 @@ pub(super) fn run(
         ));
     }
     let stop = stop::on_signal();
-    let mut live = match options.ros1.reach() {
+    let mut live = match ros1 {
         Some(reach) => {
             let parameters = parameter_server::parameters(&launched.plan);
             LiveGraph::start_ros1(launched.arguments, reach, parameters, options.quiet)?

@@ -11,8 +11,8 @@ use periplus_graph::{Arguments, Graph};
 use periplus_launch::bringup::{LaunchRunner, WorldRequest};
 use periplus_os::{Stopwatch, sleep};
 use periplus_session::{
-    PageContext, ProgressLine, RunEnd, RunSettings, SessionBuilder, SessionTask, SimulationSession,
-    stop,
+    PageContext, ProgressLine, Ros1Reach, RunEnd, RunSettings, SessionBuilder, SessionTask,
+    SimulationSession, stop,
 };
 use periplus_sim::{Options, Simulation, Tick};
 use serde_json::json;
@@ -48,6 +48,7 @@ pub(super) fn run(
     launched: Launched,
     mut bringup: LaunchRunner,
     options: &PlayOptions,
+    ros1: Option<Ros1Reach>,
     search: &SearchOptions,
 ) -> Result<ExitCode, CliError> {
     let stop = stop::on_signal();
@@ -72,7 +73,7 @@ pub(super) fn run(
         .command(Some(launched.recorded))
         .recording_truth(options.recorded.records_truth())
         .ros2(options.ros2.map(Into::into))
-        .ros1(options.ros1.reach())
+        .ros1(ros1)
         .ros1_parameters(parameter_server::parameters(&launched.plan))
         .page(page)
         .build()?;

@@ -424,7 +424,8 @@ pub(crate) fn installed_program(program: &Program, settings: &Settings) -> Resul
     let name = name.split_whitespace().next().unwrap_or_default();
     let folder = own_folder(&program.running).unwrap_or_default();
     let folder = settings.search.working_folder.join(folder);
-    let host = Overlay { variables: environment::of_running(&program.running) };
+    let host =
+        Overlay { variables: environment::of_running(&program.running), ..Overlay::default() };
     let path = host.variable("PATH").unwrap_or_default();
     let is_file = |path: &Path| Machine.kind(path) == Some(EntryKind::File);
     let is_found = program.is_shell
@@ -453,7 +454,8 @@ fn find(
     settings: &Settings,
     program: &Program,
 ) -> Result<PathBuf, String> {
-    let host = Overlay { variables: environment::of_running(&program.running) };
+    let host =
+        Overlay { variables: environment::of_running(&program.running), ..Overlay::default() };
     let resolver = Resolver::new(&host, &settings.search.folders);
     let (mut tried, mut is_there) = (Vec::new(), false);
     for from in program.package_search_starts(&settings.search) {
