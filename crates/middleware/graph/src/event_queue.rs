@@ -1,5 +1,6 @@
 //! Queue of events in the order of execution.
 
+use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 
@@ -16,7 +17,7 @@ pub(crate) enum Rank {
 /// Order of all events: time, then node, topic, and sequence number of the message. The ordinal
 /// separates events that are equal otherwise, such as two subscriptions of one node to one topic,
 /// by age.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Key {
     pub(crate) time_ns: i64,
     pub(crate) node: Arc<str>,
@@ -24,6 +25,29 @@ pub(crate) struct Key {
     pub(crate) name: Arc<str>,
     pub(crate) sequence: u64,
     pub(crate) ordinal: u64,
+}
+
+impl Ord for Key {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.time_ns
+            .cmp(&other.time_ns)
+            .then_with(|| compare(&self.node, &other.node))
+            .then(self.rank.cmp(&other.rank))
+            .then_with(|| compare(&self.name, &other.name))
+            .then(self.sequence.cmp(&other.sequence))
+            .then(self.ordinal.cmp(&other.ordinal))
+    }
+}
+
+impl PartialOrd for Key {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+/// Compares names; equal ones are mostly the same object, which need not be read.
+fn compare(one: &Arc<str>, other: &Arc<str>) -> Ordering {
+    if Arc::ptr_eq(one, other) { Ordering::Equal } else { one.cmp(other) }
 }
 
 /// An event in the queue.

@@ -14,7 +14,7 @@ use crate::interceptor::Interceptor;
 use crate::live::Live;
 use crate::node::{Node, NodeCore};
 use crate::parameters::ParameterRejection;
-use crate::registry::Registry;
+use crate::registry::{Registry, TopicEntry};
 use crate::settings::NodeSettings;
 use crate::tap::{Sink, TapId};
 use crate::{EndpointId, GraphError, Qos, executor, live};
@@ -259,6 +259,12 @@ impl Graph {
     #[must_use]
     pub fn topics(&self) -> Vec<TopicInfo> {
         lock(&self.0.registry).topic_infos()
+    }
+
+    /// True if a topic of this full name has a subscription.
+    #[must_use]
+    pub fn is_subscribed(&self, topic: &str) -> bool {
+        lock(&self.0.registry).topics.get(topic).is_some_and(TopicEntry::is_subscribed)
     }
 
     /// Services with a server or client, by name.

@@ -21,7 +21,11 @@ pub struct NodeSettings {
     is_bare: bool,
     keeps_names: bool,
     shares_name: bool,
+    confinement: Option<String>,
 }
+
+/// Names that the nodes of all robots share.
+const SHARED_NAMES: [&str; 4] = ["/clock", "/rosout", "/parameter_events", "/diagnostics"];
 
 impl NodeSettings {
     /// Starts with a node in the root namespace.
@@ -37,6 +41,7 @@ impl NodeSettings {
             is_bare: false,
             keeps_names: false,
             shares_name: false,
+            confinement: None,
         }
     }
 
@@ -57,6 +62,15 @@ impl NodeSettings {
         } else {
             Ok(Rule { node: None, change: Rule::name(from.trim(), to.trim()) })
         });
+        self
+    }
+
+    /// Puts the topics and services of the node into a namespace, also those that are written with a leading slash or
+    /// remapped outside of it; only what all robots share, such as `/clock`, remains. For copies of a robot whose
+    /// description has such names.
+    #[must_use]
+    pub fn confine(mut self, namespace: &str) -> Self {
+        self.confinement = Some(full_namespace(namespace)).filter(|full| full != "/");
         self
     }
 
@@ -161,7 +175,12 @@ impl NodeSettings {
             .filter(|rule| rule.node.as_ref().is_none_or(|node| *node == given))
             .map(|rule| rule.change)
             .collect();
-        let mut names = NodeNames { name: given, namespace: self.namespace, rules: Vec::new() };
+        let mut names = NodeNames {
+            name: given,
+            namespace: self.namespace,
+            rules: Vec::new(),
+            confinement: self.confinement,
+        };
         let name = rules.iter().find_map(|rule| match rule {
             Change::Node(name) => Some(name.clone()),
             _ => None,
@@ -194,6 +213,7 @@ pub struct NodeNames {
     name: String,
     namespace: String,
     rules: Vec<FullRule>,
+    confinement: Option<String>,
 }
 
 /// A rule with full names.
@@ -231,7 +251,7 @@ impl NodeNames {
     pub fn topic(&self, written: &str) -> Result<String, GraphError> {
         let full = self.expand("topic", written)?;
         let rule = self.rules.iter().find(|rule| rule.topics && rule.from == full);
-        Ok(rule.map_or(full, |rule| rule.to.clone()))
+        Ok(self.confined(rule.map_or(full, |rule| rule.to.clone())))
     }
 
     /// Full name of a service as written by the node, with remappings applied.
@@ -241,7 +261,20 @@ impl NodeNames {
     pub fn service(&self, written: &str) -> Result<String, GraphError> {
         let full = self.expand("service", written)?;
         let rule = self.rules.iter().find(|rule| rule.services && rule.from == full);
-        Ok(rule.map_or(full, |rule| rule.to.clone()))
+        Ok(self.confined(rule.map_or(full, |rule| rule.to.clone())))
+    }
+
+    /// The name within the confinement.
+    fn confined(&self, full: String) -> String {
+        match &self.confinement {
+            Some(around)
+                if !SHARED_NAMES.contains(&full.as_str())
+                    && full.strip_prefix(around).is_none_or(|rest| !rest.starts_with('/')) =>
+            {
+                format!("{around}{full}")
+            }
+            _ => full,
+        }
     }
 
     /// Full name of a topic as written by the node, without remappings.

@@ -264,3 +264,25 @@ proptest! {
         }
     }
 }
+
+/// Regression test: copies of a robot whose description has absolute names obeyed the same commands.
+#[test]
+fn the_names_of_a_confined_node_are_in_its_namespace() {
+    let names = NodeSettings::new("drive")
+        .namespace("/robot_1/wheels")
+        .remap("cmd_vel", "/cmd_vel")
+        .remap("/tf", "/robot_1/tf")
+        .confine("robot_1")
+        .names()
+        .unwrap();
+    let check = |written: &str, expected: &str| {
+        assert_eq!(names.topic(written).unwrap(), expected);
+    };
+    check("cmd_vel", "/robot_1/cmd_vel");
+    check("odom", "/robot_1/wheels/odom");
+    check("/scan", "/robot_1/scan");
+    check("/robot_10/scan", "/robot_1/robot_10/scan");
+    check("/tf", "/robot_1/tf");
+    check("/clock", "/clock");
+    assert_eq!(names.service("/reset").unwrap(), "/robot_1/reset");
+}

@@ -118,6 +118,10 @@ impl TopicEntry {
         }
     }
 
+    pub(crate) fn is_subscribed(&self) -> bool {
+        !self.subscriptions.is_empty()
+    }
+
     pub(super) fn info(&self) -> TopicInfo {
         let mismatches = self.publishers.iter().flat_map(|publisher| {
             self.subscriptions.iter().filter_map(|subscription| {
