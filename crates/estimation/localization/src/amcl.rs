@@ -1,5 +1,7 @@
 //! Adaptive Monte Carlo localization.
 
+use std::sync::Arc;
+
 use periplus_diagnostics::{Diagnostic, DiagnosticCause};
 use periplus_geometry::{LaserScan2, Pose2, Stream};
 use periplus_grid::OccupancyGrid;
@@ -17,7 +19,6 @@ use self::global_search::GlobalSearch;
 use self::mode::Mode;
 use self::pose_verification::PoseVerification;
 use crate::branch_and_bound::Completeness;
-use crate::global_localization::GlobalLocalizer;
 use crate::hypotheses::Hypotheses;
 use crate::initial_pose::{InitialPose, check_position, scatter};
 use crate::kld_sampling::{Cluster, clusters};
@@ -26,8 +27,8 @@ use crate::parameters::AmclCompat;
 use crate::particles::{Covariance2, Moments, Particles};
 use crate::recovery::LikelihoodAverages;
 use crate::scan::{Beams, MatchingScan};
-use crate::sensor_model::tables::SensorTables;
 use crate::settings::Settings;
+use crate::shared_maps::{PreparedMap, SharedMaps};
 use crate::status::{ConvergenceMonitor, LocalizationStatus};
 
 /// Estimated pose of the robot.
@@ -65,6 +66,7 @@ pub struct AmclUpdate {
 #[derive(Clone, Debug)]
 pub struct Amcl {
     settings: Settings,
+    maps: Arc<SharedMaps>,
     map: Option<PreparedMap>,
     mode: Mode,
     /// Particles; none in [`Mode::Uninitialized`].
@@ -90,47 +92,19 @@ pub struct Amcl {
     map_from_odom: Option<Pose2>,
 }
 
-/// Map with the tables derived from it.
-#[derive(Clone, Debug)]
-struct PreparedMap {
-    grid: OccupancyGrid,
-    field: LikelihoodMap,
-    /// Tables of the sensor model; none before the first scan.
-    sensor: Option<SensorTables>,
-    /// Search index; none before it is needed.
-    localizer: Option<GlobalLocalizer>,
-}
-
-impl PreparedMap {
-    fn new(grid: OccupancyGrid, field: LikelihoodMap) -> Self {
-        Self { grid, field, sensor: None, localizer: None }
-    }
-
-    /// Returns the search index, built on first use.
-    fn localizer(&mut self) -> (&LikelihoodMap, &GlobalLocalizer) {
-        let Self { field, localizer, .. } = self;
-        let localizer = localizer.get_or_insert_with(|| GlobalLocalizer::new(field));
-        (field, localizer)
-    }
-
-    /// Returns the tables of the sensor model for a maximum range, rebuilt when settings change.
-    fn sensor(&mut self, settings: &Settings, range_max_m: f64) -> (&LikelihoodMap, &SensorTables) {
-        let Settings { sensor_model, mixture, compat, .. } = settings;
-        let Self { field, sensor, .. } = self;
-        sensor.take_if(|it| !it.is_for(*sensor_model, mixture, range_max_m, *compat));
-        let tables = sensor.get_or_insert_with(|| {
-            SensorTables::new(field, *sensor_model, mixture, range_max_m, *compat)
-        });
-        (field, tables)
-    }
-}
-
 impl Amcl {
     /// Creates a filter without a map. An initial pose of the settings is applied with the first
     /// map.
     #[must_use]
     pub fn new(settings: Settings) -> Self {
+        Self::sharing(settings, Arc::default())
+    }
+
+    /// Creates a filter that shares its maps and their tables with others.
+    #[must_use]
+    pub fn sharing(settings: Settings, maps: Arc<SharedMaps>) -> Self {
         Self {
+            maps,
             map: None,
             mode: Mode::Uninitialized { initial_pose: settings.initial_pose },
             settings,
@@ -161,7 +135,7 @@ impl Amcl {
     /// Present map.
     #[must_use]
     pub fn map(&self) -> Option<&LikelihoodMap> {
-        self.map.as_ref().map(|map| &map.field)
+        self.map.as_ref().map(PreparedMap::field)
     }
 
     /// Particles; none before an initial pose or global localization.
@@ -223,8 +197,7 @@ impl Amcl {
         if let Some(map) = &mut self.map
             && settings.map_settings() != self.settings.map_settings()
         {
-            let field = LikelihoodMap::new(&map.grid, settings.map_settings())?;
-            (map.field, map.sensor, map.localizer) = (field, None, None);
+            *map = self.maps.prepare(map.grid(), settings.map_settings())?;
             self.search.cancel();
         }
         self.settings = settings;
@@ -258,8 +231,7 @@ impl Amcl {
             ))
             .into());
         }
-        let field = LikelihoodMap::new(grid, self.settings.map_settings())?;
-        let mut map = PreparedMap::new(grid.clone(), field);
+        let map = self.maps.prepare(grid, self.settings.map_settings())?;
         if self.settings.uses_global_localization() {
             map.localizer();
         }
@@ -308,7 +280,7 @@ impl Amcl {
         covariance: Covariance2,
     ) -> Result<Option<Diagnostic>, Box<Diagnostic>> {
         let Some(map) = &self.map else { return Ok(None) };
-        let warning = check_position(&map.field, pose, self.settings.compat)?;
+        let warning = check_position(map.field(), pose, self.settings.compat)?;
         let mut stream = self.random_stream("start");
         let mut particles = Particles::default();
         let count = self.settings.kld_sampling.max_particles;
@@ -328,7 +300,7 @@ impl Amcl {
         let map = self.map.as_ref().ok_or_else(no_map)?;
         let mut particles = Particles::default();
         for _ in 0..self.settings.kld_sampling.max_particles {
-            particles.push(map.field.random_pose(&mut stream).ok_or_else(no_free_cell)?);
+            particles.push(map.field().random_pose(&mut stream).ok_or_else(no_free_cell)?);
         }
         self.start(particles, Mode::Tracking { refined: None });
         self.has_pose = true;
@@ -342,7 +314,7 @@ impl Amcl {
     /// # Errors
     /// There is no map, the scan is invalid, or it fits nowhere.
     pub fn localize_globally(&mut self, scan: &LaserScan2) -> Result<Vec<Peak>, Box<Diagnostic>> {
-        let map = self.map.as_mut().ok_or_else(no_map)?;
+        let map = self.map.as_ref().ok_or_else(no_map)?;
         let scan = MatchingScan::new(scan, &self.settings.beams)?;
         let peaks = map.localizer().1.peaks(&scan.ends);
         if !self.start_at_candidates(&scan, &peaks, Completeness::NearBest) {
@@ -360,7 +332,7 @@ impl Amcl {
     ) -> bool {
         let Some(map) = &self.map else { return false };
         let poses = peaks.iter().map(|peak| peak.pose);
-        let Some(hypotheses) = Hypotheses::new(&map.field, scan, poses, completeness) else {
+        let Some(hypotheses) = Hypotheses::new(map.field(), scan, poses, completeness) else {
             return false;
         };
         let particles = self.particles_at(&hypotheses);

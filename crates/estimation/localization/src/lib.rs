@@ -49,6 +49,7 @@ mod scan_likelihood;
 mod scan_refinement;
 mod sensor_model;
 mod settings;
+mod shared_maps;
 mod status;
 
 pub use amcl::{Amcl, AmclUpdate, PoseEstimate};
@@ -71,4 +72,5 @@ pub use sensor_model::{
     BeamMixture, BeamSkip, SensorModel, expected_range_m, product_weight, sum_of_cubes_weight,
 };
 pub use settings::Settings;
+pub use shared_maps::SharedMaps;
 pub use status::{LocalizationState, LocalizationStatus};

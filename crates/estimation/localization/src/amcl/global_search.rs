@@ -8,6 +8,7 @@ use super::Amcl;
 use crate::branch_and_bound::{BranchAndBound, Completeness};
 use crate::pose_threshold::{PoseThreshold, has_moved};
 use crate::scan::MatchingScan;
+use crate::shared_maps::PreparedMap;
 
 /// Maximum work of a slice, some milliseconds; more for the first slice, when nothing is known yet
 /// (EXPERIMENTS.md, steps 22 and 29).
@@ -170,7 +171,7 @@ impl Amcl {
     /// Runs the next slice of the search in progress, if any. Its scan may be an older one.
     pub(super) fn advance_search(&mut self) {
         let Some((mut search, odom_from_base)) = self.search.running.take() else { return };
-        let Some(localizer) = self.map.as_ref().and_then(|map| map.localizer.as_ref()) else {
+        let Some(localizer) = self.map.as_ref().and_then(PreparedMap::built_localizer) else {
             return;
         };
         let is_first = self.search.slice_count == 0;

@@ -16,6 +16,7 @@ use crate::particles::Particles;
 use crate::scan::MatchingScan;
 use crate::scan_likelihood::inlier_ratios;
 use crate::scan_refinement::{PoseBelief, information_from_std, predicted};
+use crate::shared_maps::PreparedMap;
 use crate::status::LocalizationState;
 
 /// Distance with several hypotheses after which the map is searched for others \[m\].
@@ -39,7 +40,7 @@ impl Amcl {
         old_from_new: Option<Pose2>,
         odom_from_base: Pose2,
     ) {
-        let Some(map) = self.map.as_ref().map(|map| &map.field) else { return };
+        let Some(map) = self.map.as_ref().map(PreparedMap::field) else { return };
         let (mut hypotheses, fallback) =
             match std::mem::replace(&mut self.mode, Mode::Tracking { refined: None }) {
                 Mode::Hypotheses(hypotheses) => (hypotheses, None),
@@ -178,7 +179,7 @@ impl Amcl {
             let only_verifies = self.is_verification_due(odom_from_base)
                 && matches
                 && self.mode.hypotheses().is_none();
-            let localizer = self.map.as_ref().and_then(|map| map.localizer.as_ref());
+            let localizer = self.map.as_ref().and_then(PreparedMap::built_localizer);
             let score = localizer.map_or(0.0, |it| it.score(&scan.ends, estimate.pose));
             let min_score = if only_verifies { MIN_RIVAL_FRACTION * score } else { 0.0 };
             self.start_search(scan, odom_from_base, min_score);
@@ -204,7 +205,7 @@ impl Amcl {
         odom_from_base: Pose2,
         result: &SearchResult,
     ) -> bool {
-        let Some(map) = self.map.as_ref().map(|map| &map.field) else { return false };
+        let Some(map) = self.map.as_ref().map(PreparedMap::field) else { return false };
         let completeness = result.completeness;
         let Some(mut hypotheses) = Hypotheses::new(map, scan, result.poses(), completeness) else {
             return false;

@@ -69,7 +69,7 @@ impl Amcl {
         let Some(map) = &self.map else {
             return MatchedPose { belief: predicted, inlier_ratio: None };
         };
-        let refined = refine_pose(&map.field, &scan.ends, &predicted).belief;
+        let refined = refine_pose(map.field(), &scan.ends, &predicted).belief;
         let inlier_ratio = self.inlier_ratio(refined.pose, &scan.beams);
         self.unmatched_distance_m += distance_m;
         if let Some(found) = self.search_nearby(scan, &predicted, inlier_ratio, missed) {
@@ -83,7 +83,7 @@ impl Amcl {
     /// Inlier ratio of a scan at a pose that was tracked by odometry. Just after a matching scan,
     /// hits beyond the edge of the map do not count.
     pub(super) fn inlier_ratio(&self, map_from_base: Pose2, beams: &Beams) -> Option<f64> {
-        let ratios = inlier_ratios(&self.map.as_ref()?.field, beams, map_from_base)?;
+        let ratios = inlier_ratios(self.map.as_ref()?.field(), beams, map_from_base)?;
         Some(if self.matched_recently() { ratios.judged } else { ratios.all })
     }
 
@@ -118,7 +118,7 @@ impl Amcl {
             distance_m: (MIN_WINDOW_M + WINDOW_GROWTH_FACTOR * distance_m).min(MAX_WINDOW_M),
             angle_rad: (MIN_WINDOW_RAD + WINDOW_GROWTH_RAD_PER_M * distance_m).min(MAX_WINDOW_RAD),
         };
-        let (map, localizer) = self.map.as_mut()?.localizer();
+        let (map, localizer) = self.map.as_ref()?.localizer();
         let peaks = localizer.peaks_near(&scan.ends, predicted.pose, half_window);
         let matched = |peak: &Peak| {
             let prior = match missed {

@@ -21,6 +21,7 @@ use crate::pose_threshold::PoseThreshold;
 use crate::scan::MatchingScan;
 use crate::scan_likelihood::{inlier_ratios, log_likelihood};
 use crate::scan_refinement::{PoseBelief, information_from_std, refine_pose};
+use crate::shared_maps::PreparedMap;
 use crate::status::LocalizationState;
 
 // All values are from EXPERIMENTS.md, steps 23 to 33.
@@ -342,7 +343,7 @@ impl Amcl {
         odom_from_base: Pose2,
         has_slipped: bool,
     ) {
-        let Some(map) = self.map.as_ref().map(|map| &map.field) else { return };
+        let Some(map) = self.map.as_ref().map(PreparedMap::field) else { return };
         let Pose2 { x_m, y_m, .. } = map_from_base;
         let min_ratio = self.monitor.min_usual_inlier_ratio();
         let scan_match = ScanMatch {
@@ -386,7 +387,7 @@ impl Amcl {
         pose: Pose2,
         result: &SearchResult,
     ) -> bool {
-        let Some(map) = self.map.as_ref().map(|map| &map.field) else { return false };
+        let Some(map) = self.map.as_ref().map(PreparedMap::field) else { return false };
         let own_nats = log_likelihood(map, &scan.beams, pose);
         let Some(ratio) = inlier_ratios(map, &scan.beams, pose).map(|it| it.all) else {
             return false;
@@ -447,7 +448,7 @@ impl Amcl {
     }
 
     fn contradicted_at_odometry(&self, scan: &MatchingScan, odom_from_base: Pose2) -> Option<f64> {
-        let map = &self.map.as_ref()?.field;
+        let map = self.map.as_ref()?.field();
         let by_odometry = self.anchored_pose(odom_from_base)?.map_from_base;
         let is_on_map = map.is_free_near(by_odometry.x_m, by_odometry.y_m, MAX_FREE_DISTANCE_M);
         inlier_ratios(map, &scan.beams, by_odometry).filter(|_| is_on_map).map(|it| it.contradicted)
@@ -469,7 +470,7 @@ impl Amcl {
         let is_far =
             length_m(error) > max_error_m || normalize_angle(error.yaw_rad).abs() > max_error_rad;
         let Pose2 { x_m, y_m, .. } = map_from_base;
-        let is_free_within = |distance_m| map.field.is_free_near(x_m, y_m, distance_m);
+        let is_free_within = |distance_m| map.field().is_free_near(x_m, y_m, distance_m);
         if is_far || !is_free_within(max_error_m) {
             OdometryAgreement::Contradicted
         } else if !is_free_within(MAX_FREE_DISTANCE_M) {
@@ -486,7 +487,7 @@ impl Amcl {
         scan: &MatchingScan,
         hypotheses: &Hypotheses,
     ) {
-        let Some(map) = self.map.as_ref().map(|map| &map.field) else { return };
+        let Some(map) = self.map.as_ref().map(PreparedMap::field) else { return };
         let ratio = inlier_ratios(map, &scan.beams, pose).map_or(0.0, |it| it.all);
         let is_conclusive = hypotheses.is_unique_at_once()
             && ratio >= SINGLE_SEARCH_RATIO

@@ -109,7 +109,7 @@ impl Amcl {
             let (belief, missed) = self.predict_refined(scan, &before, step);
             (before, step, belief, missed)
         });
-        let map = &self.map.as_ref()?.field;
+        let map = self.map.as_ref()?.field();
         let by_odometry = predicted.map(|it| refine_pose(map, &scan.ends, &it.2));
         let by_particles = refine_pose(map, &scan.ends, &PoseBelief { pose: mean, information });
         let best = by_odometry
@@ -141,7 +141,7 @@ impl Amcl {
             return slip;
         }
         let covariance = best.belief.covariance();
-        let map = &self.map.as_ref()?.field;
+        let map = self.map.as_ref()?.field();
         estimate.pose = pose;
         estimate.clusters = not_refuted(map, scan, &estimate.clusters, pose, covariance);
         let refined = RefinedPose { last_step, ..RefinedPose::new(best.belief, odom_from_base) };
@@ -233,7 +233,7 @@ impl Amcl {
         step: Pose2,
     ) -> (PoseBelief, MissedMotion) {
         let by_odometry = predicted(&before.belief, step);
-        let Some(map) = self.map.as_ref().map(|map| &map.field) else {
+        let Some(map) = self.map.as_ref().map(|map| map.field()) else {
             return (by_odometry, MissedMotion::Any);
         };
         let fit_of = |belief: &PoseBelief| refine_pose(map, &scan.ends, belief).fit;

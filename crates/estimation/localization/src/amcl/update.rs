@@ -202,7 +202,7 @@ impl Amcl {
         let mut bins = OccupiedBins::default();
         while drawn.len() < sampling.max_particles {
             let random = if draws_random && stream.unit() < random_fraction {
-                self.map.as_ref().and_then(|map| map.field.random_pose(&mut stream))
+                self.map.as_ref().and_then(|map| map.field().random_pose(&mut stream))
             } else {
                 None
             };
@@ -231,7 +231,7 @@ impl Amcl {
         let inlier_ratio = match (hypotheses, &self.map) {
             (Some(hypotheses), Some(map)) => {
                 let best = hypotheses.best().belief.pose;
-                inlier_ratios(&map.field, &scan.beams, best).map(|it| it.all)
+                inlier_ratios(map.field(), &scan.beams, best).map(|it| it.all)
             }
             _ => self.inlier_ratio(estimate.pose, &scan.beams),
         };

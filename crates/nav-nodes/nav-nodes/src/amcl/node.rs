@@ -10,6 +10,7 @@ use periplus_graph::{
 };
 use periplus_localization::{
     Amcl, AmclParams, AmclUpdate, Covariance2, InitialPose, LocalizationStatus, Settings,
+    SharedMaps,
 };
 use periplus_maps::from_message;
 use periplus_msgs::geometry_msgs::PoseWithCovarianceStamped;
@@ -37,6 +38,7 @@ pub struct AmclNode {
     params: AmclParams,
     values: ParamValues,
     settings: Settings,
+    maps: Arc<SharedMaps>,
     files: Arc<dyn Files>,
     pub(crate) amcl: Option<Amcl>,
     frames: Frames,
@@ -81,6 +83,7 @@ impl AmclNode {
             params: AmclParams::from_values(&values),
             values: values.clone(),
             settings,
+            maps: Arc::default(),
             files,
             amcl: None,
             frames: Frames::default(),
@@ -117,6 +120,11 @@ impl AmclNode {
         actor.on_jump(|state, io| state.on_clock_jump(io.node()));
         services::serve(&mut actor)?;
         LifecycleNode::new(actor)
+    }
+
+    /// Shares maps and their tables with the nodes of other robots. Call it before the node is configured.
+    pub fn share_maps(&mut self, maps: Arc<SharedMaps>) {
+        self.maps = maps;
     }
 
     /// The filter, once the node is configured.
@@ -159,7 +167,7 @@ impl LifecycleCallbacks for AmclNode {
                 Err(why) => node.log(Level::Warn, why),
             }
         }
-        self.amcl = Some(Amcl::new(settings));
+        self.amcl = Some(Amcl::sharing(settings, self.maps.clone()));
         StepOutcome::Success
     }
 
@@ -167,7 +175,7 @@ impl LifecycleCallbacks for AmclNode {
         let node = io.node();
         if std::mem::replace(&mut self.was_active, true) && self.resets_on_activation() {
             // Resets everything but the map, which is latched and arrives again.
-            self.amcl = Some(Amcl::new(self.settings.clone()));
+            self.amcl = Some(Amcl::sharing(self.settings.clone(), self.maps.clone()));
             match Inputs::new(node, &self.params) {
                 Ok(inputs) => self.inputs = Some(inputs),
                 Err(error) => node.log(Level::Error, error),
