@@ -27,8 +27,8 @@ mod topic_nodes;
 mod tree_nodes;
 
 pub use default_trees::{
-    NAVIGATE_CAR_TO_POSE_FILE, NAVIGATE_THROUGH_POSES_FILE, NAVIGATE_TO_POSE_FILE, built_in_tree,
-    built_in_tree_files,
+    NAVIGATE_CAR_TO_POSE_FILE, NAVIGATE_KEEPING_PATH_FILE, NAVIGATE_THROUGH_POSES_FILE,
+    NAVIGATE_TO_POSE_FILE, built_in_tree, built_in_tree_files,
 };
 pub use node::BtNavigator;
 pub use parameters::{BT_NAVIGATOR, BtNavigatorParams};

@@ -18,7 +18,7 @@ use periplus_msgs::{Action, Nav2Action};
 use super::actions::{duration, duration_ns};
 use super::loading::TreeLoader;
 use super::parameters::BtNavigatorParams;
-use super::paths;
+use super::paths::{self, RemainingLengths};
 use super::shared::{Context, Shared};
 use super::status::NavigatorStatus;
 use crate::simple_action_server::SimpleActionServer;
@@ -128,6 +128,7 @@ pub(super) struct Navigator<K: NavigatorKind> {
     stage: Stage,
     internal_error: Option<GoalError>,
     start_ns: i64,
+    lengths: RemainingLengths,
     previous_path: Path,
     /// Index of the segment of the path at which the robot is.
     segment: usize,
@@ -142,6 +143,7 @@ impl<K: NavigatorKind> Default for Navigator<K> {
             internal_error: None,
             start_ns: 0,
             previous_path: Path::default(),
+            lengths: RemainingLengths::default(),
             segment: 0,
         }
     }
@@ -455,10 +457,10 @@ impl<K: NavigatorKind> Navigator<K> {
                 }
                 // The closest pose of the whole path.
                 _ => paths::min_by(&path.poses, |pose| {
-                    paths::distance_m(&pose.pose, &current_pose.pose)
+                    paths::squared_distance_m2(&pose.pose, &current_pose.pose)
                 }),
             };
-            distance_m = paths::length_m(path, self.segment);
+            distance_m = self.lengths.from_m(path, self.segment);
         }
         let [x, y, _] = env.shared.mean_velocity();
         let speed = libm::hypot(x, y);

@@ -1,12 +1,19 @@
 //! Distances along paths, in the plane.
 
 use periplus_behavior_tree::PathGeometry;
+use periplus_msgs::builtin_interfaces::Time;
 use periplus_msgs::geometry_msgs::{Pose, PoseStamped};
 use periplus_msgs::nav_msgs::Path;
 
 /// Distance of two poses in the plane \[m\].
 pub(super) fn distance_m(a: &Pose, b: &Pose) -> f64 {
     libm::hypot(a.position.x - b.position.x, a.position.y - b.position.y)
+}
+
+/// Square of the distance of two poses in the plane \[m^2\], to compare distances.
+pub(super) fn squared_distance_m2(a: &Pose, b: &Pose) -> f64 {
+    let (dx_m, dy_m) = (a.position.x - b.position.x, a.position.y - b.position.y);
+    dx_m * dx_m + dy_m * dy_m
 }
 
 /// Length of a path from a pose on \[m\].
@@ -24,6 +31,36 @@ pub(super) fn geometry(path: &Path) -> PathGeometry {
         length_m: length_m(path, 0),
         end_position_m: [p.x, p.y, p.z],
         end_pose: [p.x, p.y, p.z, q.x, q.y, q.z, q.w],
+    }
+}
+
+/// Lengths of a path from each of its poses on, kept while the path is the same.
+#[derive(Default)]
+pub(super) struct RemainingLengths {
+    /// Stamp, number of poses, first and last pose.
+    path: Option<(Time, usize, [PoseStamped; 2])>,
+    from_pose_m: Vec<f64>,
+}
+
+impl RemainingLengths {
+    /// Length of a path from a pose on \[m\]; 0 behind its end.
+    pub(super) fn from_m(&mut self, path: &Path, pose: usize) -> f64 {
+        let [Some(first), Some(last)] = [path.poses.first(), path.poses.last()] else { return 0.0 };
+        let is_same = self.path.as_ref().is_some_and(|(stamp, count, ends)| {
+            (stamp, *count, &ends[0], &ends[1])
+                == (&path.header.stamp, path.poses.len(), first, last)
+        });
+        if !is_same {
+            let ends = [first.clone(), last.clone()];
+            self.path = Some((path.header.stamp.clone(), path.poses.len(), ends));
+            self.from_pose_m.clear();
+            self.from_pose_m.resize(path.poses.len(), 0.0);
+            for index in (0..path.poses.len() - 1).rev() {
+                let step_m = distance_m(&path.poses[index].pose, &path.poses[index + 1].pose);
+                self.from_pose_m[index] = self.from_pose_m[index + 1] + step_m;
+            }
+        }
+        self.from_pose_m.get(pose).copied().unwrap_or(0.0)
     }
 }
 
@@ -96,17 +133,14 @@ fn segment_distance_m(pose: &Pose, a: &Pose, b: &Pose) -> f64 {
 ///
 /// Source: `isPathUpdated` in `nav2_util/path_utils.cpp`.
 pub(super) fn is_path_updated(new: &Path, old: &Path) -> bool {
-    let [new, old] = [geometry(new), geometry(old)];
-    old.pose_count != 0
-        && new.pose_count != 0
-        && new.pose_count != old.pose_count
-        && new.end_position_m == old.end_position_m
+    let (Some(end), Some(old_end)) = (new.poses.last(), old.poses.last()) else { return false };
+    new.poses.len() != old.poses.len() && end.pose.position == old_end.pose.position
 }
 
 /// True if the ends of two paths differ.
 pub(super) fn is_goal_updated(new: &Path, old: &Path) -> bool {
-    let [new, old] = [geometry(new), geometry(old)];
-    old.pose_count != 0 && new.pose_count != 0 && new.end_pose != old.end_pose
+    let (Some(end), Some(old_end)) = (new.poses.last(), old.poses.last()) else { return false };
+    end.pose != old_end.pose
 }
 
 #[cfg(test)]
@@ -128,6 +162,10 @@ mod tests {
         assert_eq!(length_m(&path, 0), 4.0);
         assert_eq!(length_m(&path, 2), 1.0);
         assert_eq!(length_m(&path, 9), 0.0);
+        let mut lengths = RemainingLengths::default();
+        assert_eq!([0, 2, 3, 9].map(|pose| lengths.from_m(&path, pose)), [4.0, 1.0, 0.0, 0.0]);
+        assert_eq!(lengths.from_m(&line(&[0.0, 2.0, 3.0, 5.0]), 0), 5.0);
+        assert_eq!(lengths.from_m(&Path::default(), 0), 0.0);
         assert_eq!(first_after_m(&path.poses, 1.0), 2);
         assert_eq!(first_after_m(&path.poses, 9.0), 4);
         assert_eq!(first_after_m(&path.poses[..0], 9.0), 0);
