@@ -27,6 +27,8 @@ pub struct DeviceContext<'a> {
     pub model_name: &'a str,
     /// Namespace of relative names; `/` is none.
     pub namespace: &'a str,
+    /// True to put absolute names into the namespace, too.
+    pub is_confined: bool,
     /// Remappings `from:=to` of every node of the model.
     pub remaps: &'a [String],
     /// Seed of all noise.

@@ -64,6 +64,9 @@ fn node_settings(setting: &DeviceContext<'_>, name: &str, namespace: &str) -> No
     for rule in setting.remaps {
         settings = settings.rule(rule);
     }
+    if setting.is_confined {
+        settings = settings.confine(around);
+    }
     if !around.is_empty() {
         // As in Nav2 with several robots: each has its own transforms.
         settings = settings.remap("/tf", &format!("{around}/tf"));

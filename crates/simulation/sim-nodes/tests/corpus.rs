@@ -93,6 +93,7 @@ fn try_out(model: &scene::Model) -> Option<(String, Vec<f64>)> {
         model: id,
         model_name: &root.name,
         namespace: "/",
+        is_confined: false,
         remaps: &[],
         seed: 0,
         quirks: Quirks::NONE,

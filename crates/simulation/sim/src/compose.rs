@@ -48,6 +48,8 @@ pub struct ModelInstance {
     pub name: String,
     /// Namespace of its nodes; `/` is none.
     pub namespace: String,
+    /// True for one of several copies: absolute names of its description are in its namespace too.
+    pub is_copy: bool,
     /// Pose of its frame in the world.
     pub world_from_model: Pose,
     /// Text that `robot_description` publishes, for a URDF or for the SDF of one robot.
@@ -86,7 +88,7 @@ impl Composition {
     }
 
     /// Puts the last robot at the first of these poses on the plane z = 0, and a copy of it at each other one. They
-    /// are named like it with numbers, and each has its name as namespace.
+    /// are named like it with numbers, and each has its name as namespace, in which its absolute names are too.
     pub fn spread_last(&mut self, poses: &[Pose2]) {
         let Some(robot) = self.members.pop() else { return };
         let stand =
@@ -95,6 +97,7 @@ impl Composition {
             let name = format!("{}_{number}", robot.name);
             self.members.push(ModelInstance {
                 namespace: absolute(&name),
+                is_copy: true,
                 name,
                 world_from_model: stand(pose),
                 ..robot.clone()
@@ -192,7 +195,16 @@ fn compose_loaded(
             None => "/".to_owned(),
         };
         let description = placed.description;
-        members.push(ModelInstance { model, name, namespace, world_from_model, description, file });
+        let is_copy = false;
+        members.push(ModelInstance {
+            model,
+            name,
+            namespace,
+            is_copy,
+            world_from_model,
+            description,
+            file,
+        });
     };
     for model in std::mem::take(&mut world.models) {
         add(model, Placed::default(), file_of_world, &mut members);

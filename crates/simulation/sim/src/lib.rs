@@ -33,8 +33,10 @@ mod default_world;
 mod drive;
 mod drive_score;
 mod files;
+mod fleet_score;
 mod footprint;
 mod free_floor;
+mod map_drawing;
 mod optics;
 mod pace;
 mod photo;
@@ -55,7 +57,9 @@ pub use compute_topics::compute_topics;
 pub use drive::{DriveError, Driver, ScriptFindings, VelocityTopic, velocity_topics};
 pub use drive_score::{DriveCollision, DriveScore};
 pub use files::AssetFiles;
+pub use fleet_score::{FleetMember, FleetScore};
 pub use free_floor::{reachable_cells, spread_poses};
+pub use map_drawing::{MapDrawing, MapDrawingError};
 pub use optics::{OpticalRange, OpticalSurface};
 pub use pace::RealTimePacer;
 pub use periplus_physics::limits::STEP_RANGE_S;
@@ -70,5 +74,5 @@ pub use services::{
     GazeboAnswer, GazeboPublisher, GazeboRequestQueue, GazeboService, GazeboTopic, InsertionResult,
     InsertionSource, ModelInsertion, Search, Services, ServicesSnapshot, SpawnError, gazebo_topic,
 };
-pub use simulation::{Options, Simulation, Snapshot, SnapshotError};
+pub use simulation::{Options, SimulatedRobot, Simulation, Snapshot, SnapshotError};
 pub use wall_grid::{wall_grid, wall_grid_around};

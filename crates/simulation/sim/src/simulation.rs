@@ -2,6 +2,7 @@
 
 mod change;
 mod faults;
+mod robots;
 mod snapshot;
 mod view;
 mod world_file;
@@ -27,6 +28,7 @@ use crate::compose::{Composition, ModelInstance};
 use crate::files::AssetFiles;
 use crate::profile::{Work, WorkProfile};
 
+pub use robots::SimulatedRobot;
 pub use snapshot::{Snapshot, SnapshotError};
 pub(crate) use world_file::{WorldChange, WorldFile, is_moved, is_same};
 
@@ -376,6 +378,7 @@ impl Simulation {
             model,
             model_name: &member.name,
             namespace: &member.namespace,
+            is_confined: member.is_copy,
             remaps: &self.options.remaps,
             seed,
             quirks: self.options.quirks,

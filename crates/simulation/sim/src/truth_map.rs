@@ -136,7 +136,7 @@ fn lidar(model: &Model, scope: &str) -> Option<(String, Mounted)> {
 
 /// Marks the hits of rays along all rows and columns of cells, two in each and in both directions,
 /// so that no face is missed edge-on or from behind.
-fn mark_walls(map: &mut OccupancyGrid, seen: &RenderScene, height_m: f64, robot: &str) {
+pub(crate) fn mark_walls(map: &mut OccupancyGrid, seen: &RenderScene, height_m: f64, robot: &str) {
     let info = map.info;
     let (columns, rows) = (info.width as f64, info.height as f64);
     for half in 0..2 * info.height {
@@ -211,7 +211,7 @@ fn distance_m(
 }
 
 /// Marks as free all cells reachable from a cell over edges.
-fn flood(map: &mut OccupancyGrid, from: (usize, usize)) {
+pub(crate) fn flood(map: &mut OccupancyGrid, from: (usize, usize)) {
     let (width, height) = (map.info.width, map.info.height);
     let mut open = VecDeque::from([from]);
     map[from] = FREE;

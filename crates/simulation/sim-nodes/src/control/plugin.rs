@@ -41,6 +41,8 @@ pub(super) struct ControlPlugin {
     pub(super) files: Arc<dyn ParameterFiles>,
     /// Namespace of the robot in this run, without a slash at the end; empty for none.
     around: String,
+    /// True to put absolute names into that namespace, too.
+    is_confined: bool,
     remaps: Vec<String>,
     /// Parameter files and remappings of the plugin.
     arguments: Arguments,
@@ -99,6 +101,7 @@ impl ControlPlugin {
             namespace: slashed(&ros.namespace),
             files: Arc::clone(setting.parameter_files),
             around: slashed(setting.namespace),
+            is_confined: setting.is_confined,
             remaps: setting.remaps.to_vec(),
             arguments,
         }
@@ -159,6 +162,9 @@ impl ControlPlugin {
                 .with_arguments(&self.arguments);
             for rule in &self.remaps {
                 settings = settings.rule(rule);
+            }
+            if self.is_confined {
+                settings = settings.confine(&self.around);
             }
             if !self.around.is_empty() {
                 settings = settings.remap("/tf", &format!("{}/tf", self.around));

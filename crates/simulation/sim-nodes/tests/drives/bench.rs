@@ -231,6 +231,7 @@ fn setting<'a>(
         model,
         model_name: &root.name,
         namespace: "/",
+        is_confined: false,
         remaps: &[],
         seed: 7,
         quirks: Quirks::NONE,

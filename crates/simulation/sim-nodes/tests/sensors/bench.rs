@@ -87,6 +87,7 @@ impl Bench {
             model,
             model_name: name,
             namespace: "/",
+            is_confined: false,
             remaps: &[],
             seed: 1,
             quirks: Quirks::NONE,

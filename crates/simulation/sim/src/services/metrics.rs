@@ -12,7 +12,7 @@ use periplus_os::Stopwatch;
 
 use super::gz_sim::name_of;
 use super::pause_state::PauseState;
-use super::topics::{OnDemand, subscribed};
+use super::topics::OnDemand;
 use crate::Simulation;
 
 /// Wall time between two messages, as in Harmonic and close to Classic.
@@ -78,9 +78,9 @@ impl Metrics {
         let now_ns = simulation.time_ns();
         let factor = factor(now_ns - self.last_ns, elapsed);
         self.last_ns = now_ns;
-        let wanted = subscribed(simulation);
-        self.classic.look(&self.node, &wanted)?;
-        self.gz_sim.look(&self.node, &wanted)?;
+        let graph = simulation.graph();
+        self.classic.look(&self.node, graph)?;
+        self.gz_sim.look(&self.node, graph)?;
         if let Some(publisher) = self.classic.heard() {
             publisher.publish(PerformanceMetrics {
                 header: Header::at(now_ns, ""),

@@ -92,6 +92,7 @@ pub(super) fn spawn(
                 model: *model,
                 name: name.clone(),
                 namespace: format!("/{namespace}"),
+                is_copy: false,
                 world_from_model,
                 description: description.filter(|_| wish.with_frames),
                 file: 0,

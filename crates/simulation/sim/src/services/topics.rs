@@ -1,6 +1,6 @@
 //! State topics: those of plugins always, others while they have subscribers.
 
-use periplus_graph::{GraphError, Node, Publisher, Qos};
+use periplus_graph::{Graph, GraphError, Node, Publisher, Qos};
 use periplus_msgs::Message;
 use periplus_msgs::gazebo_msgs::{LinkStates, ModelStates};
 
@@ -32,13 +32,16 @@ impl<T: Message> OnDemand<T> {
     /// Advertises the topic permanently, with or without subscribers.
     pub(super) fn keep(&mut self, node: &Node) -> Result<(), GraphError> {
         self.is_kept = true;
-        let wanted = [self.name.clone()];
-        self.look(node, &wanted)
+        self.set(node, true)
     }
 
-    /// Creates or removes the publisher, by the names of the subscribed topics.
-    pub(super) fn look(&mut self, node: &Node, wanted: &[String]) -> Result<(), GraphError> {
-        match (&self.publisher, wanted.contains(&self.name)) {
+    /// Creates the publisher if the topic has subscriptions, and removes it otherwise.
+    pub(super) fn look(&mut self, node: &Node, graph: &Graph) -> Result<(), GraphError> {
+        self.set(node, graph.is_subscribed(&self.name))
+    }
+
+    fn set(&mut self, node: &Node, is_wanted: bool) -> Result<(), GraphError> {
+        match (&self.publisher, is_wanted) {
             (None, true) => self.publisher = Some(node.publisher(&self.name, Qos::reliable(1))?),
             (Some(_), false) if !self.is_kept => self.publisher = None,
             _ => {}
@@ -50,12 +53,6 @@ impl<T: Message> OnDemand<T> {
     pub(super) fn heard(&self) -> Option<&Publisher<T>> {
         self.publisher.as_ref().filter(|publisher| publisher.is_heard())
     }
-}
-
-/// Returns the names of subscribed topics.
-pub(super) fn subscribed(simulation: &Simulation) -> Vec<String> {
-    let topics = simulation.graph().topics().into_iter();
-    topics.filter(|topic| !topic.subscriptions.is_empty()).map(|topic| topic.name).collect()
 }
 
 /// Periodic timer in simulated time.
@@ -109,10 +106,10 @@ impl<T: Message> Outlet<T> {
         }
     }
 
-    fn look(&mut self, node: &Node, wanted: &[String]) -> Result<(), GraphError> {
+    fn look(&mut self, node: &Node, graph: &Graph) -> Result<(), GraphError> {
         match self {
             Self::Always(_) => Ok(()),
-            Self::OnDemand(on_demand) => on_demand.look(node, wanted),
+            Self::OnDemand(on_demand) => on_demand.look(node, graph),
         }
     }
 }
@@ -175,10 +172,10 @@ impl StateTopics {
     pub(super) fn publish(&mut self, simulation: &Simulation) -> Result<(), GraphError> {
         let now_ns = simulation.time_ns();
         if self.look.is_due(now_ns) {
-            let wanted = subscribed(simulation);
+            let graph = simulation.graph();
             for pair in &mut self.pairs {
-                pair.models.look(&self.node, &wanted)?;
-                pair.links.look(&self.node, &wanted)?;
+                pair.models.look(&self.node, graph)?;
+                pair.links.look(&self.node, graph)?;
             }
         }
         for pair in &mut self.pairs {
