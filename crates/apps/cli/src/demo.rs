@@ -127,17 +127,14 @@ impl DemoOptions {
 
 /// Writes all results and prints the report.
 fn write(task: &DemoTask, session: &mut SimulationSession, out: &Path) -> Result<(), CliError> {
-    let map = session
-        .estimators()
-        .mapping
-        .as_ref()
-        .and_then(|mapping| mapping.node.with(|node| node.map()));
+    let map = session.mapping().and_then(|mapping| mapping.node.with(|node| node.map()));
     let truth = map.and_then(|map| session.simulation_mut().beside_truth(&map, Pose2::IDENTITY));
-    let estimators = session.estimators();
-    let Some(mapping) = &estimators.mapping else { return Ok(()) };
+    let Some(mapping) = session.mapping() else { return Ok(()) };
     let report = report::of(&session.report(), mapping, truth.as_ref(), task.explorer());
     mapping.write_results()?;
-    estimators.costmaps.write_images()?;
+    for robot in session.estimators() {
+        robot.costmaps.write_images()?;
+    }
     task.write_images(out)?;
     let text = format!("{report:#}\n");
     paths::write(&out.join("report.json"), text.as_bytes())?;

@@ -1,5 +1,6 @@
 //! `periplus map`.
 
+mod draw;
 mod options;
 mod serve;
 
@@ -22,6 +23,7 @@ pub(crate) fn run(command: &MapCommand, ros: Vec<String>) -> Result<ExitCode, Cl
     }
     let common = |json: bool| Common { json, ..Common::default() };
     match command {
+        MapCommand::Draw(options) => draw::run(options),
         MapCommand::Save(options) => save(options, &ros),
         MapCommand::Serve(options) => serve::run(options, ros),
         MapCommand::Info(options) => without_network(&common(options.json), |session| {

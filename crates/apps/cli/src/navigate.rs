@@ -1,5 +1,6 @@
 //! `periplus navigate`.
 
+mod fleet;
 mod random_goals;
 mod report;
 
@@ -10,13 +11,14 @@ use std::process::ExitCode;
 use clap::{Args, ValueEnum};
 use periplus_geometry::Pose2;
 use periplus_graph::{Arguments, Publisher, Qos};
+use periplus_grid::OccupancyGrid;
 use periplus_loader::LoadContext;
 use periplus_msgs::geometry_msgs::PoseWithCovarianceStamped;
 use periplus_nav_nodes::slam_toolbox::Program;
 use periplus_os::Stopwatch;
 use periplus_session::nodes::{
     EstimatorRequest, GoalDriver, GoalOutcome, MappingRequest, MappingSource, Navigation,
-    NavigationDefaults, NavigationRequest, PlanningMap, RobotBase, slam_parameters,
+    NavigationDefaults, NavigationRequest, PathController, PlanningMap, RobotBase, slam_parameters,
 };
 use periplus_session::{
     PageContext, ProgressLine, RunSettings, SessionBuilder, SessionTask, SimulationSession, stop,
@@ -26,6 +28,7 @@ use periplus_sim::{
     compose, wall_grid_around,
 };
 
+use self::fleet::FleetTask;
 use self::random_goals::random_goals;
 use crate::error::CliError;
 use crate::options::SearchOptions;
@@ -33,7 +36,8 @@ use crate::page::PageOptions;
 use crate::run_options::{
     Factor, Reach, Ros1Options, TopicSelection, exit_code, factor, finite_numbers, positive,
 };
-use crate::sim::Robots;
+use crate::sim::fleet::drawn_places;
+use crate::sim::{Dynamics, Robots, robot_count};
 use crate::terminal;
 
 /// Drive a robot to goals in a simulated world, as Nav2 does
@@ -41,6 +45,9 @@ use crate::terminal;
 /// Runs the servers of Nav2 (planner, controller, behaviors, navigator) beside the robot, with SLAM, or on a map with
 /// `--map`, and sends the goals one after the other. The robot knows its sensors only; the report compares with the
 /// truth. Exit code 1: a goal was not reached.
+///
+/// With `--robots`, or several `--robot`, each robot has its own servers, AMCL and costmaps in its namespace, on one
+/// map in the frame of the world, and drives to its own random goals.
 #[derive(Debug, Args)]
 pub(crate) struct NavigateOptions {
     /// World, and `name:=value` for its xacro
@@ -56,6 +63,16 @@ pub(crate) struct NavigateOptions {
     /// Number of random goals that the robot can reach on the map, after those of `--goal`; they depend on `--seed`
     #[arg(long, value_name = "NUMBER", requires = "map")]
     random_goals: Option<usize>,
+    /// Number of copies of the robot, each at a random start on the map
+    #[arg(long = "robots", value_name = "COUNT", value_parser = robot_count, requires_all = ["map", "random_goals"])]
+    robot_count: Option<usize>,
+    /// Motion model: rigid bodies, or motion exactly as commanded on a flat floor
+    #[arg(long, value_enum, default_value_t = Dynamics::Rigid)]
+    dynamics: Dynamics,
+    /// Controller, for the default parameters: `mppi`, which leads around obstacles, or `rpp`, regulated pure pursuit,
+    /// which follows the path in a hundredth of the computing time [default: mppi, for several robots rpp]
+    #[arg(long, value_enum, value_name = "NAME")]
+    controller: Option<Controller>,
     /// Map to localize on with AMCL [default: SLAM builds one while the robot drives]
     #[arg(long, value_name = "MAP.yaml", conflicts_with = "no_map")]
     map: Option<PathBuf>,
@@ -129,6 +146,14 @@ pub(crate) struct NavigateOptions {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Controller {
+    /// Model predictive path integral control
+    Mppi,
+    /// Regulated pure pursuit
+    Rpp,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Base {
     /// Two driven wheels, tracks, or four wheels that slip
     Differential,
@@ -145,14 +170,19 @@ pub(crate) fn run(options: &NavigateOptions, ros: Vec<String>) -> Result<ExitCod
     let start = Stopwatch::start();
     let to_nodes = crate::arguments::read(ros)?;
     let (world, arguments) = options.robots.world(&options.words, "navigate")?;
-    if options.robots.placements.len() > 1 {
-        return Err(CliError::usage("navigate drives one robot; give one `--robot`"));
-    }
+    options.check()?;
     let search = terminal::search(&options.search.resource_path);
-    let composition = search.with_context(true, |context| {
-        let context = LoadContext { arguments, ..context.clone() };
-        compose(&world, &options.robots.placements, &context)
-    });
+    let load = || {
+        search.with_context(true, |context| {
+            let context = LoadContext { arguments: arguments.clone(), ..context.clone() };
+            compose(&world, &options.robots.placements, &context)
+        })
+    };
+    let mut composition = load();
+    let map = options.fleet_map()?;
+    if let (Some(count), Some(map), false) = (options.robot_count, &map, composition.has_errors()) {
+        composition.spread_last(&drawn_places(load(), map, count, options.seed)?);
+    }
     let pose = options.start_pose();
     let factor = options.factor(&composition);
     let page = options.page.of_run(
@@ -172,14 +202,17 @@ pub(crate) fn run(options: &NavigateOptions, ros: Vec<String>) -> Result<ExitCod
         .ros1(options.ros1.reach())
         .page(page)
         .build()?;
-    let mut task = NavigateTask::new(&mut session, options, pose)?;
     let stop = stop::on_signal();
     let settings = RunSettings { duration_s: Some(options.timeout), stop: &stop, is_paused: false };
+    if let Some(map) = map {
+        return run_fleet(options, &mut session, settings, map);
+    }
+    let mut task = NavigateTask::new(&mut session, options, pose)?;
     session.run(settings, &mut task);
     session.finish()?;
     task.goals.finish(session.simulation().time_ns());
     options.print(&session, &task)?;
-    session.estimators().write_map(options.quiet)?;
+    session.write_maps(options.quiet)?;
     exit_code(session.end())?;
     let is_reached =
         |report: &periplus_session::nodes::GoalReport| report.outcome == GoalOutcome::Reached;
@@ -188,7 +221,71 @@ pub(crate) fn run(options: &NavigateOptions, ros: Vec<String>) -> Result<ExitCod
     if is_done && !has_failed { Ok(ExitCode::SUCCESS) } else { Ok(ExitCode::FAILURE) }
 }
 
+/// Runs several robots.
+fn run_fleet(
+    options: &NavigateOptions,
+    session: &mut SimulationSession,
+    settings: RunSettings<'_>,
+    map: OccupancyGrid,
+) -> Result<ExitCode, CliError> {
+    let mut task = FleetTask::new(session, options, map)?;
+    session.run(settings, &mut task);
+    session.finish()?;
+    task.finish(session.simulation().time_ns());
+    if options.json {
+        writeln!(io::stdout().lock(), "{:#}", task.to_json(session))?;
+    } else if !options.quiet {
+        task.print(session, &mut anstream::stderr().lock())?;
+    }
+    exit_code(session.end())?;
+    Ok(if task.is_done() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}
+
 impl NavigateOptions {
+    fn number_of_robots(&self) -> usize {
+        self.robot_count.unwrap_or(self.robots.placements.len())
+    }
+
+    /// Checks combinations of options.
+    fn check(&self) -> Result<(), CliError> {
+        if self.robot_count.is_some() && self.robots.placements.len() != 1 {
+            return Err(CliError::usage("`--robots` needs exactly one `--robot`"));
+        }
+        if self.number_of_robots() < 2 {
+            return Ok(());
+        }
+        if self.map.is_none() || self.random_goals.is_none() {
+            return Err(CliError::usage(
+                "several robots need a map, and random goals on it: `--map MAP.yaml --random-goals NUMBER`; `periplus \
+                 map draw WORLD` draws the map of a world",
+            ));
+        }
+        let single = [
+            (!self.goals.is_empty(), "--goal"),
+            (self.initial_pose.is_some(), "--initial-pose"),
+            (self.arrival_radius.is_some(), "--arrival-radius"),
+            (self.end_at_collision, "--end-at-collision"),
+        ];
+        match single.into_iter().find(|(is_given, _)| *is_given) {
+            Some((_, option)) => Err(CliError::Usage(format!("`{option}` is for one robot"))),
+            None => Ok(()),
+        }
+    }
+
+    /// Map of several robots.
+    fn fleet_map(&self) -> Result<Option<OccupancyGrid>, CliError> {
+        let path = self.map.as_ref().filter(|_| self.number_of_robots() > 1);
+        path.map(|path| crate::localize::map_grid(path)).transpose()
+    }
+
+    fn controller(&self) -> PathController {
+        match self.controller {
+            Some(Controller::Mppi) => PathController::Mppi,
+            Some(Controller::Rpp) => PathController::RegulatedPurePursuit,
+            None => NavigationDefaults::for_robots(self.number_of_robots()).controller,
+        }
+    }
+
     /// Pose at which the user has put the robot.
     fn start_pose(&self) -> Pose2 {
         match self.robots.placements.first().map(|placement| &placement.pose) {
@@ -219,6 +316,7 @@ impl NavigateOptions {
     fn simulation(&self, arguments: Arguments) -> Options {
         Options {
             seed: self.seed,
+            mode: self.dynamics.into(),
             threads: self.threads.unwrap_or_else(terminal::processors),
             arguments,
             ..Options::default()
@@ -242,11 +340,13 @@ impl NavigateOptions {
         let mapping = is_mapped.then(|| mapping(self.slam_out.clone())).transpose()?;
         Ok(EstimatorRequest {
             detects_robot: true,
+            is_fleet: self.number_of_robots() > 1,
             localization: self.map.iter().cloned().collect(),
             mapping,
             navigation: Some(NavigationRequest {
                 parameters: self.params_file.clone(),
                 defaults: NavigationDefaults {
+                    controller: self.controller(),
                     base,
                     max_speed_m_s: self.max_speed,
                     max_turn_rate_rad_s: self.max_turn_rate,
@@ -304,7 +404,7 @@ impl NavigateTask {
     ) -> Result<Self, CliError> {
         let initial = options.initial_pose.unwrap_or(start);
         let given = options.all_goals(session.simulation(), initial)?;
-        let navigation = session.take_navigation();
+        let navigation = session.take_navigation().pop().unwrap_or_default();
         let frame = navigation.global_frame();
         // The map of SLAM begins at the robot.
         let in_frame = |goal: &Pose2| match options.planning_map() {

@@ -1,6 +1,6 @@
 //! `periplus sim`.
 
-mod fleet;
+pub(crate) mod fleet;
 mod robots;
 
 use std::io::{self, Write};
@@ -116,12 +116,12 @@ pub(crate) struct SimOptions {
     /// Parameter file of ROS 2; later files win. `--ros-args` is understood too
     #[arg(long, value_name = "FILE")]
     params_file: Vec<String>,
-    /// Run the usual nodes beside the robot: an EKF of odometry and IMU if the robot publishes no
+    /// Run the usual nodes beside each robot: an EKF of odometry and IMU if the robot publishes no
     /// odometry transform, SLAM (or localization with `--localize MAP.yaml`), and both costmaps.
     /// Topics and frames are those of the robot
     #[arg(long)]
     stack: bool,
-    /// Run the servers of Nav2 beside the robot, with a parameter file of Nav2 [default: parameters for the robot],
+    /// Run the servers of Nav2 beside each robot, with a parameter file of Nav2 [default: parameters for the robot],
     /// and SLAM (or localization with `--localize MAP.yaml`). Goals come from the page, from RViz, or from
     /// clients of `navigate_to_pose`
     #[arg(long, value_name = "FILE.yaml", num_args = 0..=1, conflicts_with = "costmap")]
@@ -152,11 +152,20 @@ pub(crate) struct SimOptions {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Dynamics {
+pub(crate) enum Dynamics {
     /// Physics with bodies, joints, contacts and friction
     Rigid,
     /// Robots move exactly as commanded, without collisions
     Kinematic,
+}
+
+impl From<Dynamics> for PhysicsMode {
+    fn from(dynamics: Dynamics) -> Self {
+        match dynamics {
+            Dynamics::Rigid => Self::Rigid,
+            Dynamics::Kinematic => Self::Kinematic,
+        }
+    }
 }
 
 /// Runs a simulation; `recorded` is the command for its recording.
@@ -216,7 +225,7 @@ pub(crate) fn run(
     session.run(settings, &mut NoTask);
     session.finish()?;
     options.report(&session)?;
-    session.estimators().write_map(options.quiet)?;
+    session.write_maps(options.quiet)?;
     match exit_code(session.end()) {
         Ok(_) if !session.is_whole() => {
             Err(CliError::failed("parts of the files have errors and were left out"))
@@ -226,7 +235,7 @@ pub(crate) fn run(
 }
 
 /// Parses a number of robots.
-fn robot_count(word: &str) -> Result<usize, String> {
+pub(crate) fn robot_count(word: &str) -> Result<usize, String> {
     match word.parse() {
         Ok(count @ 1..=10_000) => Ok(count),
         _ => Err("expected a number of robots from 1 to 10000".into()),
@@ -281,9 +290,6 @@ impl SimOptions {
             )));
         }
         let selection = self.selection();
-        if let Some(why) = selection.refusal(self.number_of_robots()) {
-            return Err(CliError::usage(why));
-        }
         if self.mapping.needs_mapping() && !selection.runs_mapping() {
             return Err(CliError::failed("`--slam-node` and `--slam-out` require `--slam`"));
         }
@@ -303,10 +309,7 @@ impl SimOptions {
     fn simulation(&self, arguments: Arguments) -> Options {
         Options {
             seed: self.seed,
-            mode: match self.dynamics {
-                Dynamics::Rigid => PhysicsMode::Rigid,
-                Dynamics::Kinematic => PhysicsMode::Kinematic,
-            },
+            mode: self.dynamics.into(),
             step_s: self.step,
             threads: self.threads.unwrap_or_else(terminal::processors),
             quirks: if self.gz_quirks { Quirks::GAZEBO } else { Quirks::default() },
@@ -346,7 +349,7 @@ impl SimOptions {
             report.write_text(&mut anstream::stderr().lock())?;
         }
         if !self.quiet {
-            session.estimators().write_reports(&mut anstream::stderr().lock())?;
+            session.write_estimator_reports(&mut anstream::stderr().lock())?;
         }
         Ok(())
     }

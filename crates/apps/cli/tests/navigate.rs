@@ -106,3 +106,63 @@ fn an_omnidirectional_robot_drives_through_gaps_in_which_it_fits_with_any_headin
     assert_eq!(report["goals"][0]["recoveries"], 0, "{report}");
     assert!(report["truth"]["length_m"].as_f64().unwrap() > 4.5, "{report}");
 }
+
+/// Draws the map of the demo room into a folder, and returns its path.
+fn drawn_map(folder: &Folder) -> String {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../..");
+    let name = folder.path("room");
+    let drawn = Command::new(env!("CARGO_BIN_EXE_periplus"))
+        .args(["map", "draw"])
+        .arg(root.join("worlds/demo_room.sdf"))
+        .args(["--start=0,0.8", "-f"])
+        .arg(&name)
+        .output()
+        .unwrap();
+    assert!(drawn.status.success(), "{}", String::from_utf8_lossy(&drawn.stderr));
+    format!("{}.yaml", name.display())
+}
+
+#[test]
+fn each_of_several_robots_localizes_and_reaches_its_own_goals() {
+    let folder = Folder::new("navigate-fleet");
+    let map = drawn_map(&folder);
+    let run = |threads: &str| {
+        let words = ["--map", &map, "--robots=3", "--random-goals=1", "--dynamics=kinematic"];
+        let mut report = navigate(&[&words[..], &[threads, "--seed=3"]].concat());
+        // Wall times differ.
+        report["robots"].take()
+    };
+    let robots = run("--threads=1");
+    assert_eq!(robots.as_array().unwrap().len(), 3);
+    for robot in robots.as_array().unwrap() {
+        assert_eq!(robot["goals"][0]["is_reached"], true, "{robot:#}");
+        assert_eq!(robot["wall_contacts"], 0, "{robot:#}");
+        assert!(robot["length_m"].as_f64().unwrap() > 0.3, "{robot:#}");
+        assert!(robot["localization_error_mean_m"].as_f64().unwrap() < 0.1, "{robot:#}");
+    }
+    assert_ne!(robots[0]["goals"][0]["goal"], robots[1]["goals"][0]["goal"]);
+    assert_eq!(robots, run("--threads=2"));
+}
+
+#[test]
+fn what_several_robots_need_is_said() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../..");
+    let refusal = |words: &[&str]| {
+        let robot = root.join("robots/sam_bot/urdf/sam_bot.urdf.xacro");
+        let done = Command::new(env!("CARGO_BIN_EXE_periplus"))
+            .arg("navigate")
+            .arg(root.join("worlds/demo_room.sdf"))
+            .arg("--robot")
+            .arg(&robot)
+            .args(words)
+            .output()
+            .unwrap();
+        assert_eq!(done.status.code(), Some(2));
+        String::from_utf8_lossy(&done.stderr).into_owned()
+    };
+    let robot = root.join("robots/sam_bot/urdf/sam_bot.urdf.xacro");
+    let second = robot.to_str().unwrap();
+    assert!(refusal(&["--robot", second, "--goal=1,0"]).contains("periplus map draw WORLD"));
+    let goal = ["--robots=2", "--map=m.yaml", "--random-goals=1", "--goal=1,0"];
+    assert!(refusal(&goal).contains("`--goal` is for one robot"));
+}

@@ -204,6 +204,7 @@ impl PyNavigation {
                 max_speed_m_s: max_speed,
                 max_turn_rate_rad_s: max_turn_rate,
                 map: planning_map,
+                ..NavigationDefaults::default()
             },
             parameters: ServerParameters::new(parameters, shortcuts)?,
             map,

@@ -224,8 +224,8 @@ impl SessionBuilder {
             return Err(RunError::Empty(missing.to_owned()));
         }
         let request = self.estimators.take();
-        let profile = request.as_ref().map(|it| it.detect(&mut simulation, self.is_quiet));
-        let profile = profile.transpose()?.flatten();
+        let profiles = request.as_ref().map(|it| it.detect(&mut simulation, self.is_quiet));
+        let mut profiles = profiles.transpose()?.unwrap_or_default();
         let recorder = self
             .recording
             .take()
@@ -241,7 +241,7 @@ impl SessionBuilder {
             .map_err(RunError::Services)?;
         let warnings = self.driver.join(&simulation).map_err(RunError::Script)?;
         terminal::print_findings(&warnings)?;
-        let estimators = self.start_estimators(&simulation, request, profile.as_ref())?;
+        let estimators = self.start_estimators(&simulation, request, &mut profiles)?;
         let ros2 = self.connect_ros2(&simulation)?;
         let ros1 = self.connect_ros1(&simulation)?;
         let gazebo = self.connect_gazebo(&simulation, &mut services)?;
@@ -252,7 +252,7 @@ impl SessionBuilder {
             ros1,
             ros2,
             estimators,
-            profile,
+            profiles,
             services,
             recorder,
             description,
@@ -283,11 +283,11 @@ impl SessionBuilder {
         &self,
         simulation: &Simulation,
         request: Option<EstimatorRequest>,
-        profile: Option<&RobotProfile>,
-    ) -> Result<Estimators, RunError> {
-        let Some(request) = request else { return Ok(Estimators::default()) };
+        profiles: &mut [RobotProfile],
+    ) -> Result<Vec<Estimators>, RunError> {
+        let Some(request) = request else { return Ok(vec![Estimators::default()]) };
         let pace = if self.factor.is_some() { Pace::Sliced } else { Pace::Whole };
-        let estimators = request.start(simulation, profile, pace)?;
+        let estimators = request.start(simulation, profiles, pace)?;
         if !self.is_quiet {
             terminal::print_findings(&simulation.graph().unused_arguments())?;
         }

@@ -65,6 +65,13 @@ pub enum RunError {
     NoData(&'static str),
     /// The robot lacks something that the requested nodes need.
     Robot(&'static str),
+    /// Two robots have the same topics.
+    SharedNamespace {
+        /// Namespace of both.
+        namespace: String,
+        /// Their names.
+        robots: [String; 2],
+    },
     /// Errors in a file, which are printed already.
     Reported,
     /// A failed write to stdout or stderr.
@@ -107,6 +114,11 @@ impl Display for RunError {
             Self::File(error) => error.fmt(f),
             Self::NoParameters(message) => f.write_str(message),
             Self::NoData(message) | Self::Robot(message) => f.write_str(message),
+            Self::SharedNamespace { namespace, robots: [one, other] } => write!(
+                f,
+                "the robots `{one}` and `{other}` have the same namespace `{namespace}`, and with it the same topics: \
+                 give one of them another with `--namespace`"
+            ),
             Self::Reported => f.write_str("a file has errors"),
             Self::Output(error) => {
                 write!(f, "cannot write the output: {}", plain_words(error))

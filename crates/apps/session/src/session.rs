@@ -2,6 +2,7 @@
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
+use std::io::{self, Write};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
@@ -14,7 +15,7 @@ use periplus_sim::{
 
 use crate::error::RunError;
 use crate::network::{GazeboConnection, Ros1Connection, Ros2Connection};
-use crate::nodes::{Estimators, Navigation, RobotProfile};
+use crate::nodes::{Estimators, MappingNode, Navigation, RobotProfile};
 use crate::page::Page;
 use crate::progress::ProgressLine;
 use crate::recording::RecordingWatch;
@@ -74,9 +75,10 @@ pub(crate) struct SessionParts {
     pub(crate) gazebo: Option<GazeboConnection>,
     pub(crate) ros1: Option<Ros1Connection>,
     pub(crate) ros2: Ros2Connection,
-    pub(crate) estimators: Estimators,
-    /// Detected topics and frames of the robot.
-    pub(crate) profile: Option<RobotProfile>,
+    /// Nodes of each robot.
+    pub(crate) estimators: Vec<Estimators>,
+    /// Detected topics and frames of the robots, if the estimators needed them.
+    pub(crate) profiles: Vec<RobotProfile>,
     pub(crate) services: Services,
     pub(crate) recorder: Option<SimulationRecorder>,
     /// Facts of the run that its recordings contain.
@@ -133,21 +135,55 @@ impl SimulationSession {
         self.parts.simulation.graph()
     }
 
-    /// Estimator nodes.
+    /// Estimator nodes, those of each robot; one set if they do not belong to several robots.
     #[must_use]
-    pub fn estimators(&self) -> &Estimators {
+    pub fn estimators(&self) -> &[Estimators] {
         &self.parts.estimators
     }
 
-    /// Topics and frames of the robot, if the estimators needed them.
+    /// Mapping node of the first robot.
     #[must_use]
-    pub fn profile(&self) -> Option<&RobotProfile> {
-        self.parts.profile.as_ref()
+    pub fn mapping(&self) -> Option<&MappingNode> {
+        self.parts.estimators.first()?.mapping.as_ref()
     }
 
-    /// Servers of navigation; the caller keeps them alive.
-    pub fn take_navigation(&mut self) -> Navigation {
-        std::mem::take(&mut self.parts.estimators.navigation)
+    /// Topics and frames of the first robot, if the estimators needed them.
+    #[must_use]
+    pub fn profile(&self) -> Option<&RobotProfile> {
+        self.parts.profiles.first()
+    }
+
+    /// Topics and frames of all robots, if the estimators needed them.
+    #[must_use]
+    pub fn profiles(&self) -> &[RobotProfile] {
+        &self.parts.profiles
+    }
+
+    /// Servers of navigation of each robot; the caller keeps them alive.
+    pub fn take_navigation(&mut self) -> Vec<Navigation> {
+        let robots = self.parts.estimators.iter_mut();
+        robots.map(|robot| std::mem::take(&mut robot.navigation)).collect()
+    }
+
+    /// Estimator nodes of each robot; the caller keeps them alive, and the session writes no reports and maps of them.
+    pub fn take_estimators(&mut self) -> Vec<Estimators> {
+        std::mem::take(&mut self.parts.estimators)
+    }
+
+    /// Writes the reports of the estimator nodes.
+    ///
+    /// # Errors
+    /// A failed write.
+    pub fn write_estimator_reports(&self, out: &mut dyn Write) -> io::Result<()> {
+        self.parts.estimators.iter().try_for_each(|robot| robot.write_reports(out))
+    }
+
+    /// Writes the requested maps, and prints their folders.
+    ///
+    /// # Errors
+    /// When there is no map, or a file cannot be written.
+    pub fn write_maps(&self, is_quiet: bool) -> Result<(), RunError> {
+        self.parts.estimators.iter().try_for_each(|robot| robot.write_map(is_quiet))
     }
 
     /// Returns true if the session is on a ROS 2 network.

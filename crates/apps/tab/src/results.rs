@@ -14,7 +14,7 @@ impl Tab {
     /// # Errors
     /// When there is no map yet, or a file cannot be written.
     pub fn write_results(&self) -> Result<Option<PathBuf>, RunError> {
-        let mapping = self.session().estimators().mapping.as_ref();
+        let mapping = self.session().mapping();
         mapping.map_or(Ok(None), MappingNode::write_results)
     }
 }

@@ -48,9 +48,6 @@ pub(crate) fn open(options: &RunOptions) -> Result<OpenedSession, TabError> {
         .flatten();
     let selection = selection(options, &folder)?;
     let robot_count = options.robots.len();
-    if let Some(why) = selection.refusal(robot_count) {
-        return Err(TabError::Refused(why.replace("--", "")));
-    }
     let record = options.record.as_ref();
     let recording = record.map(|record| recording(record, &folder)).transpose()?;
     let session = SessionBuilder::new(composition, simulation(options, &folder)?, start)

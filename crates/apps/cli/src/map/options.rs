@@ -5,17 +5,55 @@ use std::path::PathBuf;
 use clap::{Args, Subcommand};
 use periplus_maps::Distro;
 
-use crate::run_options::LiveNetworkOptions;
+use crate::options::SearchOptions;
+use crate::run_options::{LiveNetworkOptions, finite_numbers, positive};
 use crate::verbs::seconds;
 
-/// Save, serve, inspect, convert and compare maps
+/// Draw, save, serve, inspect, convert and compare maps
 #[derive(Debug, Subcommand)]
 pub(crate) enum MapCommand {
+    Draw(DrawOptions),
     Save(SaveOptions),
     Serve(ServeOptions),
     Info(InfoOptions),
     Convert(ConvertOptions),
     Diff(DiffOptions),
+}
+
+/// Draw the map of a world from its shapes, without driving there
+///
+/// Walls are where a collision is at the height of a lidar; free is what can be reached from the start. The frame of
+/// the map is that of the world.
+#[derive(Debug, Args)]
+pub(crate) struct DrawOptions {
+    /// World, and `name:=value` for its xacro
+    #[arg(value_name = "WORLD|NAME:=VALUE", required = true)]
+    pub(crate) words: Vec<String>,
+    /// Name of the files: NAME.yaml and NAME.pgm
+    #[arg(long = "file", short = 'f', value_name = "NAME", default_value = "map")]
+    pub(crate) name: PathBuf,
+    /// Point of the free floor [m]
+    #[arg(long, value_name = "X,Y", default_value = "0,0", allow_hyphen_values = true, value_parser = point)]
+    pub(crate) start: [f64; 2],
+    /// Height of the slice above the origin of the world [m]
+    #[arg(long, value_name = "METRES", default_value_t = 0.2, allow_hyphen_values = true)]
+    pub(crate) height: f64,
+    /// Side of a cell [m]
+    #[arg(long, value_name = "METRES", default_value_t = 0.05, value_parser = positive)]
+    pub(crate) resolution: f64,
+    /// Maximum side of the map [m]; matters for a floor that no walls enclose
+    #[arg(long, value_name = "METRES", default_value_t = 160.0, value_parser = positive)]
+    pub(crate) max_side: f64,
+    #[command(flatten)]
+    pub(crate) search: SearchOptions,
+}
+
+/// Parses a point \[m\].
+fn point(word: &str) -> Result<[f64; 2], String> {
+    match finite_numbers(word).as_deref() {
+        Some(&[x_m, y_m]) => Ok([x_m, y_m]),
+        _ => Err(format!("`{word}` is not a point; write X,Y")),
+    }
 }
 
 /// Save the map of a topic, with the arguments of `map_saver_cli`, or with `--distro noetic` those

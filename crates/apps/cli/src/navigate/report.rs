@@ -15,22 +15,8 @@ const MOST_COLLISIONS: usize = 20;
 
 /// The report as JSON.
 pub(super) fn to_json(session: &SimulationSession, task: &NavigateTask) -> Value {
-    let goal = |(report, goal): (&GoalReport, &Pose2)| {
-        let (code, message) = match &report.outcome {
-            GoalOutcome::Aborted { code, message } => (*code, message.as_str()),
-            _ => (0, ""),
-        };
-        json!({
-            "goal": [goal.x_m, goal.y_m, goal.yaw_rad],
-            "is_reached": report.outcome == GoalOutcome::Reached,
-            "outcome": report.outcome.to_string(),
-            "error_code": code,
-            "error_msg": message,
-            "time_s": report.time_s,
-            "recoveries": report.recoveries,
-        })
-    };
-    let goals: Vec<Value> = task.goals.reports().iter().zip(&task.given).map(goal).collect();
+    let goals = task.goals.reports().iter().zip(&task.given);
+    let goals: Vec<Value> = goals.map(|(report, goal)| goal_to_json(report, *goal)).collect();
     let score = task.score.as_ref().map(|score| {
         json!({
             "length_m": score.length_m,
@@ -45,6 +31,23 @@ pub(super) fn to_json(session: &SimulationSession, task: &NavigateTask) -> Value
         })
     });
     json!({ "goals": goals, "truth": score, "run": session.report().to_json() })
+}
+
+/// A goal as the user has given it, and its report, as JSON.
+pub(super) fn goal_to_json(report: &GoalReport, goal: Pose2) -> Value {
+    let (code, message) = match &report.outcome {
+        GoalOutcome::Aborted { code, message } => (*code, message.as_str()),
+        _ => (0, ""),
+    };
+    json!({
+        "goal": [goal.x_m, goal.y_m, goal.yaw_rad],
+        "is_reached": report.outcome == GoalOutcome::Reached,
+        "outcome": report.outcome.to_string(),
+        "error_code": code,
+        "error_msg": message,
+        "time_s": report.time_s,
+        "recoveries": report.recoveries,
+    })
 }
 
 /// Prints the report.

@@ -128,6 +128,7 @@ pub(super) fn estimators(scenario: &Scenario) -> Result<EstimatorRequest, Scenar
             max_speed_m_s: params.max_speed_m_s,
             max_turn_rate_rad_s: params.max_turn_rate_rad_s,
             map: planning_map(scenario),
+            ..NavigationDefaults::default()
         },
     });
     Ok(EstimatorRequest {

@@ -81,7 +81,7 @@ impl ScenarioTask {
         // A true map has the frame of the world; other maps begin where the initial pose puts them.
         let is_true = scenario.nodes.localization.as_ref().is_some_and(|it| it.map == TRUE_MAP);
         let world_from_map = if is_true { Pose2::IDENTITY } else { start * initial.inverse() };
-        let navigation = session.take_navigation();
+        let navigation = session.take_navigation().pop().unwrap_or_default();
         let goals = (!navigation.is_empty())
             .then(|| GoalDriver::new(session.graph(), &navigation.global_frame(), Vec::new()))
             .transpose()?;
@@ -149,7 +149,7 @@ impl ScenarioTask {
         let findings = self.injector.take_findings(true);
         self.problems.extend(findings.iter().map(|finding| finding.message.clone()));
         let goals = self.goal_ends();
-        let slam_map = session.estimators().mapping.as_ref().and_then(|mapping| {
+        let slam_map = session.mapping().and_then(|mapping| {
             let mut map = mapping.node.with(|node| node.map())?;
             map.info.origin = self.world_from_map * map.info.origin;
             Some(map)

@@ -4,12 +4,13 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use periplus_costmap::{Nav2Release, cost};
-use periplus_graph::{Graph, LifecycleNode};
+use periplus_graph::{Graph, LifecycleNode, NodeSettings};
 use periplus_images::{Layout, write_png};
 use periplus_maps::palette::{Scheme, paint};
 use periplus_nav_nodes::costmap_2d::{CostmapNode, VoxelMarkers};
 
 use super::costmap_file::{CostmapFile, read, read_text};
+use super::namespace::RobotNamespace;
 use crate::error::RunError;
 use crate::{files, terminal};
 
@@ -57,15 +58,28 @@ impl Costmaps {
     /// # Errors
     /// When the parameters cannot be read, or a node cannot start.
     pub fn new(graph: &Graph, request: CostmapRequest) -> Result<Self, RunError> {
+        Self::within(graph, &RobotNamespace::default(), request)
+    }
+
+    /// Adds the costmap nodes of a robot to a graph, not yet configured.
+    ///
+    /// # Errors
+    /// As [`Costmaps::new`].
+    pub fn within(
+        graph: &Graph,
+        namespace: &RobotNamespace,
+        request: CostmapRequest,
+    ) -> Result<Self, RunError> {
         let file = match request.source {
             CostmapSource::File(path, compat) => read(&path, compat)?,
             CostmapSource::Text(name, text) => read_text(name, text, None)?,
         };
-        Self::of_file(graph, file, request.cells, request.images)
+        Self::of_file(graph, namespace, file, request.cells, request.images)
     }
 
     fn of_file(
         graph: &Graph,
+        namespace: &RobotNamespace,
         file: CostmapFile,
         cells: Vec<FloorPoint>,
         images: Option<PathBuf>,
@@ -73,8 +87,13 @@ impl Costmaps {
         terminal::diagnostics(&mut terminal::messages(), &file.diagnostics, &file.sources)?;
         let mut costmaps = Self { cells, images, ..Self::default() };
         for (name, config) in file.configs {
-            let made = CostmapNode::new(graph, name, config)
-                .and_then(|node| Ok((node, VoxelMarkers::new(graph, &format!("/{name}"))?)));
+            // As in Nav2 in a namespace of its name: `/local_costmap/local_costmap`.
+            let around = namespace.topic(name);
+            let settings = namespace.with_rules(NodeSettings::new(name).namespace(&around));
+            let made = graph
+                .node(settings)
+                .and_then(|node| CostmapNode::at(node, config))
+                .and_then(|node| Ok((node, VoxelMarkers::new(graph, &around)?)));
             let (node, markers) = made.map_err(|error| RunError::node(name, error))?;
             node.with(|node| node.name_lines_of(file.sources.clone()));
             costmaps.nodes.push(node);

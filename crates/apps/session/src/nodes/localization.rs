@@ -5,15 +5,17 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use periplus_diagnostics::{Diagnostics, SourceMap};
+use periplus_geometry::Pose2;
 use periplus_graph::{Graph, LifecycleNode, NodeSettings};
-use periplus_localization::AmclParams;
+use periplus_localization::{AmclParams, SharedMaps};
 use periplus_maps::Distro;
 use periplus_nav_nodes::amcl::{AmclNode, read_parameters};
 use periplus_nav_nodes::map_server::{MapServer, MapServerParams};
 use periplus_os::Machine;
-use periplus_params::ParamValues;
+use periplus_params::{ParamValue, ParamValues};
 use periplus_yaml::YamlNode;
 
+use super::namespace::RobotNamespace;
 use super::profile::RobotProfile;
 use crate::error::RunError;
 use crate::{files, terminal};
@@ -43,26 +45,9 @@ impl Localization {
         paths: &[PathBuf],
         profile: Option<&RobotProfile>,
     ) -> Result<Self, RunError> {
-        let (mut map, mut file) = (None, None);
-        for path in paths {
-            let yaml = ParameterFile::read(path)?;
-            if is_map(&yaml) {
-                map = Some(path.clone());
-            } else {
-                map = map.or_else(|| map_of(&yaml, path));
-                file = Some(yaml);
-            }
-        }
-        let mut values = amcl_parameters(file, &[]).map_err(|error| match error {
-            RunError::Reported => {
-                RunError::NoParameters("the parameters of `amcl` have errors".into())
-            }
-            error => error,
-        })?;
-        if let Some(profile) = profile {
-            profile.fill(&mut values, ["odom_frame_id", "base_frame_id", "scan_topic"]);
-        }
-        Self::new(graph, map.as_deref(), values)
+        let files = LocalizationFiles::read(paths)?;
+        let server = files.serve_map(graph)?;
+        Self::beside(graph, files.values, profile, server, Arc::default())
     }
 
     /// Starts both nodes, `map_server` only if there is a map.
@@ -70,23 +55,53 @@ impl Localization {
     /// # Errors
     /// When the graph refuses a node.
     pub fn new(graph: &Graph, map: Option<&Path>, values: ParamValues) -> Result<Self, RunError> {
-        let server = map.map(|path| {
-            let amcl = AmclParams::from_values(&values);
-            let params = MapServerParams {
-                yaml_filename: path.display().to_string(),
-                topic_name: amcl.map_topic,
-                frame_id: amcl.global_frame_id,
-            };
-            let node = graph.node(NodeSettings::new("map_server"))?;
-            MapServer::new(node, params, Distro::Jazzy, Arc::new(Machine))
-        });
-        let server = server.transpose()?;
-        let amcl = AmclNode::new(graph, values, Arc::new(Machine))?;
-        if let Some(server) = &server {
-            server.start();
+        let files = LocalizationFiles { map: map.map(Path::to_owned), values };
+        let server = files.serve_map(graph)?;
+        Self::beside(graph, files.values, None, server, Arc::default())
+    }
+
+    /// Starts `amcl` beside a robot. It keeps the map server, if it is given one.
+    fn beside(
+        graph: &Graph,
+        mut values: ParamValues,
+        profile: Option<&RobotProfile>,
+        server: Option<LifecycleNode<MapServer>>,
+        maps: Arc<SharedMaps>,
+    ) -> Result<Self, RunError> {
+        let mut namespace = RobotNamespace::default();
+        if let Some(profile) = profile {
+            profile.fill(&mut values, ["odom_frame_id", "base_frame_id", "scan_topic"]);
+            namespace = profile.namespace.clone();
+            if let Some(start) = profile.start {
+                set_start(&mut values, start);
+            }
         }
+        let amcl = AmclNode::at(namespace.node(graph, "amcl")?, values, Arc::new(Machine))?;
+        amcl.with(|node| node.share_maps(maps));
         amcl.start();
         Ok(Self { amcl, _server: server })
+    }
+
+    /// Starts `amcl` beside each robot, and one map server for all of them.
+    ///
+    /// # Errors
+    /// When a file cannot be used, or a node cannot start.
+    pub(crate) fn of_fleet(
+        graph: &Graph,
+        paths: &[PathBuf],
+        profiles: &[RobotProfile],
+    ) -> Result<Vec<Self>, RunError> {
+        let start = || {
+            let files = LocalizationFiles::read(paths)?;
+            let mut server = files.serve_map(graph)?;
+            let maps = Arc::<SharedMaps>::default();
+            let robots = profiles.iter().map(|profile| {
+                let values = files.values.clone();
+                Self::beside(graph, values, Some(profile), server.take(), maps.clone())
+            });
+            robots.collect::<Result<Vec<_>, RunError>>()
+        };
+        start().map_err(|error| RunError::node(NAME, error))
     }
 
     /// The node `amcl`.
@@ -118,6 +133,66 @@ impl Localization {
             writeln!(out, "  {trouble}")?;
         }
         Ok(())
+    }
+}
+
+/// Map and parameters of `amcl`.
+struct LocalizationFiles {
+    map: Option<PathBuf>,
+    values: ParamValues,
+}
+
+impl LocalizationFiles {
+    /// Reads the YAML of a map, a file with parameters, or both.
+    fn read(paths: &[PathBuf]) -> Result<Self, RunError> {
+        let (mut map, mut file) = (None, None);
+        for path in paths {
+            let yaml = ParameterFile::read(path)?;
+            if is_map(&yaml) {
+                map = Some(path.clone());
+            } else {
+                map = map.or_else(|| map_of(&yaml, path));
+                file = Some(yaml);
+            }
+        }
+        let values = amcl_parameters(file, &[]).map_err(|error| match error {
+            RunError::Reported => {
+                RunError::NoParameters("the parameters of `amcl` have errors".into())
+            }
+            error => error,
+        })?;
+        Ok(Self { map, values })
+    }
+
+    /// Starts `map_server` if there is a map.
+    fn serve_map(&self, graph: &Graph) -> Result<Option<LifecycleNode<MapServer>>, RunError> {
+        let Some(path) = &self.map else { return Ok(None) };
+        let amcl = AmclParams::from_values(&self.values);
+        let params = MapServerParams {
+            yaml_filename: path.display().to_string(),
+            topic_name: amcl.map_topic,
+            frame_id: amcl.global_frame_id,
+        };
+        let node = graph.node(NodeSettings::new("map_server"))?;
+        let server = MapServer::new(node, params, Distro::Jazzy, Arc::new(Machine))?;
+        server.start();
+        Ok(Some(server))
+    }
+}
+
+/// Lets `amcl` start at a pose, unless its parameters set one.
+fn set_start(values: &mut ParamValues, start: Pose2) {
+    if values.is_given("set_initial_pose") {
+        return;
+    }
+    values.set("set_initial_pose", ParamValue::Bool(true));
+    let numbers = [
+        ("initial_pose.x", start.x_m),
+        ("initial_pose.y", start.y_m),
+        ("initial_pose.yaw", start.yaw_rad),
+    ];
+    for (name, value) in numbers {
+        values.set(name, ParamValue::Number(value));
     }
 }
 

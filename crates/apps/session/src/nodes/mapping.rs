@@ -14,6 +14,7 @@ use periplus_os::Machine;
 use periplus_params::{ParamValue, ParamValues};
 use periplus_slam::{MapContradiction, Slam};
 
+use super::namespace::RobotNamespace;
 use super::profile::RobotProfile;
 use crate::error::RunError;
 use crate::{files, picture, terminal};
@@ -32,6 +33,15 @@ pub enum MappingSource {
 }
 
 impl MappingSource {
+    /// Reads the file, if it is one, so that several nodes can start with its parameters.
+    pub(super) fn read_once(&mut self) -> Result<(), RunError> {
+        if let Self::File(path, program) = self {
+            let (program, values) = slam_parameters(path.as_deref(), *program)?;
+            *self = Self::Values(program, values);
+        }
+        Ok(())
+    }
+
     /// Reads the file, if it is one, and prints its findings.
     fn read(self) -> Result<(Program, ParamValues), RunError> {
         match self {
@@ -107,16 +117,18 @@ pub fn slam_parameters(
 }
 
 /// The only topic with scans, if `scan_topic` is not set and the default topic has none.
-fn scan_topic(graph: &Graph, values: &ParamValues) -> Option<String> {
+fn scan_topic(graph: &Graph, namespace: &RobotNamespace, values: &ParamValues) -> Option<String> {
     const NAME: &str = "scan_topic";
     if values.table().find(NAME).is_some() && values.is_given(NAME) {
         return None;
     }
-    let of_scans =
-        |it: &TopicInfo| it.type_name == LaserScan::TYPE_NAME && !it.publishers.is_empty();
+    let of_scans = |it: &TopicInfo| {
+        let is_own = namespace.contains(&it.name);
+        is_own && it.type_name == LaserScan::TYPE_NAME && !it.publishers.is_empty()
+    };
     let topics: Vec<TopicInfo> = graph.topics().into_iter().filter(of_scans).collect();
     match topics.as_slice() {
-        [one] if one.name != "/scan" => Some(one.name.clone()),
+        [one] if !namespace.is_root() || one.name != "/scan" => Some(one.name.clone()),
         _ => None,
     }
 }
@@ -134,21 +146,24 @@ impl MappingNode {
         profile: Option<&RobotProfile>,
     ) -> Result<Self, RunError> {
         let (program, mut values) = request.source.read()?;
+        let namespace = profile.map(|profile| profile.namespace.clone()).unwrap_or_default();
+        let namespace = &namespace;
         if let Some(profile) = profile {
             // Scans have a separate rule below.
             profile.fill(&mut values, ["odom_frame", "base_frame", ""]);
         }
-        let mut settings = NodeSettings::new(program.node_name());
-        if let Some(topic) = scan_topic(graph, &values) {
-            if program.is_toolbox() {
+        let mut settings = namespace.settings(program.node_name());
+        if let Some(topic) = scan_topic(graph, namespace, &values) {
+            if namespace.is_root() {
+                let option =
+                    if program.is_toolbox() { "set `scan_topic`" } else { "use `-r scan:=`" };
                 terminal::say(&format!(
-                    "mapping: using scans of {topic}; set `scan_topic` for another topic"
+                    "mapping: using scans of {topic}; {option} for another topic"
                 ));
+            }
+            if program.is_toolbox() {
                 values.set("scan_topic", ParamValue::Text(topic));
             } else {
-                terminal::say(&format!(
-                    "mapping: using scans of {topic}; use `-r scan:=` for another topic"
-                ));
                 settings = settings.remap("scan", &topic);
             }
         }

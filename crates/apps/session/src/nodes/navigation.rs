@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use periplus_diagnostics::{Diagnostics, FileId, SourceMap};
 use periplus_geometry::Pose2;
-use periplus_graph::{Graph, GraphError, NodeSettings};
+use periplus_graph::{Graph, GraphError};
 use periplus_nav_nodes::NodeParameters;
 use periplus_nav_nodes::bt_navigator::NavigatorStatus;
 use periplus_nav_nodes::navigation::{NavigationNode, NavigationServer, NavigationSetup};
@@ -17,7 +17,7 @@ use periplus_os::Machine;
 use periplus_resources::{FileWriteError, Store as _};
 use periplus_yaml::YamlNode;
 
-pub use defaults::{NavigationDefaults, PlanningMap, RobotBase};
+pub use defaults::{NavigationDefaults, PathController, PlanningMap, RobotBase};
 pub use goals::{GoalDriver, GoalOutcome, GoalReport};
 
 use super::profile::RobotProfile;
@@ -33,7 +33,19 @@ pub struct NavigationRequest {
     pub defaults: NavigationDefaults,
 }
 
-/// Running servers of a session.
+/// Findings about the parameters that are printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Findings {
+    /// All.
+    All,
+    /// Errors only: the parameters are those of a robot before.
+    Errors,
+}
+
+/// Text in a parameter file that stands for the namespace of the robot, as in `bringup_launch.py` of Nav2.
+const NAMESPACE_MARK: &str = "<robot_namespace>";
+
+/// Running servers of a robot.
 #[derive(Default)]
 pub struct Navigation {
     nodes: Vec<NavigationNode>,
@@ -53,16 +65,24 @@ impl Navigation {
         graph: &Graph,
         request: &NavigationRequest,
         profile: &RobotProfile,
+        findings: Findings,
     ) -> Result<Self, RunError> {
         let (name, text) = match &request.parameters {
-            Some(path) => (path.display().to_string(), files::text(path)?),
+            // As the launch files of Nav2 do.
+            Some(path) => {
+                let text = files::text(path)?;
+                let prefix = format!("/{}", profile.namespace.name());
+                (path.display().to_string(), text.replace(NAMESPACE_MARK, &prefix))
+            }
             None => ("the default parameters".to_owned(), request.defaults.yaml(profile)),
         };
         let (mut sources, mut diagnostics) = (SourceMap::new(), Diagnostics::new());
         let file = sources.add(name, text);
         let none = NavigationPlugins::new();
         let started = Self::start_from(graph, file, profile, &none, &sources, &mut diagnostics);
-        terminal::diagnostics(&mut terminal::messages(), &diagnostics, &sources)?;
+        if findings == Findings::All || diagnostics.has_errors() {
+            terminal::diagnostics(&mut terminal::messages(), &diagnostics, &sources)?;
+        }
         started
     }
 
@@ -133,12 +153,12 @@ impl Navigation {
             if !is_needed && !has(server) {
                 continue;
             }
-            let mut settings = NodeSettings::new(server.node_name());
+            let mut settings = profile.namespace.settings(server.node_name());
             if let Some(topic) = velocity_topic(server, is_smoothed, profile) {
                 settings = settings.remap("cmd_vel", topic);
             }
             let node = graph.node(settings)?;
-            let costmap_node = |settings| graph.node(settings);
+            let costmap_node = |settings| graph.node(profile.namespace.with_rules(settings));
             navigation.nodes.push(setup.create(server, node, costmap_node, diagnostics)?);
         }
         Ok(navigation)

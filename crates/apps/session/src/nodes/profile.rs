@@ -8,7 +8,8 @@ use std::collections::BTreeMap;
 
 use periplus_diagnostics::Diagnostics;
 use periplus_ekf::Settings;
-use periplus_graph::{Graph, GraphError, Mailbox, Node, NodeSettings, Qos, TopicInfo};
+use periplus_geometry::Pose2;
+use periplus_graph::{Graph, GraphError, Mailbox, Node, Qos, TopicInfo};
 use periplus_msgs::Message;
 use periplus_msgs::nav_msgs::Odometry;
 use periplus_msgs::sensor_msgs::{Imu, LaserScan};
@@ -17,6 +18,7 @@ use periplus_nav_nodes::ekf_node::EkfNode;
 use periplus_params::{Given, ParamValue, ParamValues};
 use periplus_sim::{Simulation, VelocityTopic, velocity_topics};
 
+use super::namespace::RobotNamespace;
 use crate::error::RunError;
 use crate::terminal;
 
@@ -35,6 +37,10 @@ const MAX_DEPTH: usize = 100;
 /// Topics and frames of a robot that the stack needs.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RobotProfile {
+    /// Namespace of its nodes.
+    pub namespace: RobotNamespace,
+    /// Pose at the start, in the world; set for several robots, each of which localizes from there.
+    pub start: Option<Pose2>,
     /// Topic of laser scans.
     pub scan: Option<String>,
     /// Largest range of the scans \[m\].
@@ -57,7 +63,7 @@ pub struct RobotProfile {
     pub velocity: Option<VelocityTopic>,
 }
 
-/// Subscriptions of the detection phase.
+/// Subscriptions of the detection phase of a robot.
 struct DetectionSubscriptions {
     moving: Mailbox<TFMessage>,
     fixed: Mailbox<TFMessage>,
@@ -69,25 +75,73 @@ struct DetectionSubscriptions {
 }
 
 impl RobotProfile {
-    /// Runs the world briefly, detects topics and frames, and resets it.
+    /// Runs the world briefly, detects topics and frames of its first robot, and resets it. The robot is the only one,
+    /// or the topics of all robots are taken for its own.
     ///
     /// # Errors
     /// When the world cannot run, or the graph refuses a name.
     pub fn detect(simulation: &mut Simulation) -> Result<Self, RunError> {
-        let mut look = DetectionSubscriptions::new(simulation.graph())?;
+        let mut profiles = Self::detect_all(simulation, &[RobotNamespace::default()])?;
+        let mut profile = profiles.pop().unwrap_or_default();
+        profile.radius_m = simulation.robot_radius_m().unwrap_or(DEFAULT_RADIUS_M);
+        profile.footprint = simulation.robot_footprint_m();
+        Ok(profile)
+    }
+
+    /// Detects topics and frames of all robots in their namespaces, as [`RobotProfile::detect`].
+    ///
+    /// # Errors
+    /// When two robots share a namespace; as [`RobotProfile::detect`].
+    pub fn detect_fleet(simulation: &mut Simulation) -> Result<Vec<Self>, RunError> {
+        let robots = simulation.robots();
+        let spaces: Vec<_> =
+            robots.iter().map(|robot| RobotNamespace::new(&robot.namespace)).collect();
+        for (index, space) in spaces.iter().enumerate() {
+            if let Some(before) = spaces[..index].iter().position(|other| other == space) {
+                return Err(RunError::SharedNamespace {
+                    namespace: robots[index].namespace.clone(),
+                    robots: [before, index].map(|index| robots[index].name.clone()),
+                });
+            }
+        }
+        let mut profiles = Self::detect_all(simulation, &spaces)?;
+        for (profile, robot) in profiles.iter_mut().zip(robots) {
+            profile.radius_m = robot.radius_m.unwrap_or(DEFAULT_RADIUS_M);
+            profile.footprint = simulation.model_footprint_m(&robot.name);
+            profile.start = Some(Pose2::from(robot.world_from_robot));
+        }
+        Ok(profiles)
+    }
+
+    /// The same for several robots by their namespaces; radius and footprint are not set.
+    ///
+    /// # Errors
+    /// As [`RobotProfile::detect`].
+    fn detect_all(
+        simulation: &mut Simulation,
+        namespaces: &[RobotNamespace],
+    ) -> Result<Vec<Self>, RunError> {
+        let looks = namespaces
+            .iter()
+            .map(|namespace| DetectionSubscriptions::new(simulation.graph(), namespace));
+        let mut looks = looks.collect::<Result<Vec<_>, _>>()?;
         while simulation.time_ns() < MAX_DETECTION_NS {
             simulation.step()?;
-            look.read();
-            if simulation.time_ns() >= MIN_DETECTION_NS && look.has_all() {
+            looks.iter_mut().for_each(DetectionSubscriptions::read);
+            if simulation.time_ns() >= MIN_DETECTION_NS
+                && looks.iter().all(DetectionSubscriptions::has_all)
+            {
                 break;
             }
         }
-        let mut profile = look.finish();
-        profile.radius_m = simulation.robot_radius_m().unwrap_or(DEFAULT_RADIUS_M);
-        profile.footprint = simulation.robot_footprint_m();
-        profile.velocity = velocity_topic(simulation.graph());
+        let graph = simulation.graph();
+        let profiles = looks.into_iter().map(|look| {
+            let velocity = velocity_topic(graph, &look.profile.namespace);
+            Self { velocity, ..look.finish() }
+        });
+        let profiles = profiles.collect();
         simulation.reset();
-        Ok(profile)
+        Ok(profiles)
     }
 
     /// Prints the detected topics and frames.
@@ -147,7 +201,7 @@ impl RobotProfile {
         }
         let given = given.into_iter().map(|(name, text)| Given::new(name, text));
         let (settings, values) = Settings::read(given, &mut Diagnostics::new());
-        EkfNode::at(graph.node(NodeSettings::new("ekf_filter_node"))?, settings, values)
+        EkfNode::at(self.namespace.node(graph, "ekf_filter_node")?, settings, values)
     }
 
     /// Sets unset parameters of a node: the frames of odometry and robot, and the topic of scans,
@@ -224,10 +278,12 @@ impl RobotProfile {
 }
 
 impl DetectionSubscriptions {
-    fn new(graph: &Graph) -> Result<Self, GraphError> {
-        let node = graph.node(NodeSettings::new("stack").bare().keep_names())?;
-        let topics = graph.topics();
+    fn new(graph: &Graph, namespace: &RobotNamespace) -> Result<Self, GraphError> {
+        let node = graph.node(namespace.settings("stack").bare().keep_names())?;
+        let mut topics = graph.topics();
+        topics.retain(|topic| namespace.contains(&topic.name));
         let profile = RobotProfile {
+            namespace: namespace.clone(),
             scan: of_type::<LaserScan>(&topics, "scan"),
             odometry: of_type::<Odometry>(&topics, "odom"),
             imu: of_type::<Imu>(&topics, "imu"),
@@ -305,9 +361,9 @@ fn of_type<M: Message>(topics: &[TopicInfo], word: &str) -> Option<String> {
     all().find(|name| name.ends_with(word)).or_else(|| all().next()).map(str::to_owned)
 }
 
-/// Returns the topic on which the robot takes velocity commands; of several that of a `cmd_vel` with the shortest name.
-fn velocity_topic(graph: &Graph) -> Option<VelocityTopic> {
+/// Returns the topic on which a robot takes velocity commands; of several that of a `cmd_vel` with the shortest name.
+fn velocity_topic(graph: &Graph, namespace: &RobotNamespace) -> Option<VelocityTopic> {
     let is_named = |topic: &VelocityTopic| topic.name.ends_with("/cmd_vel");
-    let topics = velocity_topics(graph).into_iter();
+    let topics = velocity_topics(graph).into_iter().filter(|it| namespace.contains(&it.name));
     topics.min_by_key(|topic| (!is_named(topic), topic.name.len(), topic.name.clone()))
 }

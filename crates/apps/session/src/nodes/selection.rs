@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::mapping::MappingRequest;
-use super::{CostmapRequest, EstimatorRequest, NavigationDefaults, NavigationRequest};
+use super::{CostmapRequest, EstimatorRequest, NavigationDefaults, NavigationRequest, PlanningMap};
 
 /// Requested nodes, some of which imply others.
 #[derive(Clone, Debug)]
@@ -30,30 +30,27 @@ impl EstimatorSelection {
         self.is_mapping_requested || (is_usual && self.localization.is_empty())
     }
 
-    /// Returns the reason why this number of robots cannot have these nodes.
-    #[must_use]
-    pub fn refusal(&self, robot_count: usize) -> Option<&'static str> {
-        ((self.has_stack || self.navigation.is_some()) && robot_count > 1).then_some(
-            "--stack and --navigation support one robot; start the nodes of several robots with a launch file",
-        )
-    }
-
-    /// Nodes to start. For several robots their topics are set by the user.
+    /// Nodes to start. Each of several robots has its own stack, navigation and localization; the topics of other
+    /// nodes are set by the user.
     #[must_use]
     pub fn request(self, robot_count: usize) -> EstimatorRequest {
-        let needs_topics = self.has_stack
-            || self.navigation.is_some()
-            || self.is_mapping_requested
-            || !self.localization.is_empty();
+        let is_several = robot_count > 1;
+        let is_localized = !self.localization.is_empty();
+        let is_per_robot = self.has_stack || self.navigation.is_some() || is_localized;
+        let needs_topics = is_per_robot || self.is_mapping_requested;
         let runs_mapping = self.runs_mapping();
         let navigation = self.navigation.map(|parameters| NavigationRequest {
             parameters,
-            defaults: NavigationDefaults::default(),
+            defaults: NavigationDefaults {
+                map: if is_localized { PlanningMap::Known } else { PlanningMap::Growing },
+                ..NavigationDefaults::for_robots(robot_count)
+            },
         });
         EstimatorRequest {
             // The servers own both costmaps.
             has_stack: self.has_stack && navigation.is_none(),
-            detects_robot: needs_topics && robot_count <= 1,
+            detects_robot: if is_several { is_per_robot } else { needs_topics },
+            is_fleet: is_several && is_per_robot,
             costmaps: self.costmaps,
             localization: self.localization,
             mapping: runs_mapping.then_some(self.mapping),

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use periplus_nav_nodes::bt_navigator::NAVIGATE_CAR_TO_POSE_FILE;
+use periplus_nav_nodes::bt_navigator::{NAVIGATE_CAR_TO_POSE_FILE, NAVIGATE_KEEPING_PATH_FILE};
 
 use super::RobotProfile;
 
@@ -21,9 +21,21 @@ pub enum RobotBase {
     },
 }
 
+/// Controller that follows the path.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PathController {
+    /// MPPI: it leads around obstacles, and takes about a hundred times the computing time.
+    #[default]
+    Mppi,
+    /// Regulated pure pursuit: it stays on the path, and stops before obstacles until the path is planned anew.
+    RegulatedPurePursuit,
+}
+
 /// Inputs of the default parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NavigationDefaults {
+    /// Controller.
+    pub controller: PathController,
     /// Motion that the wheels allow.
     pub base: RobotBase,
     /// Maximum speed \[m/s\].
@@ -49,6 +61,7 @@ pub enum PlanningMap {
 impl Default for NavigationDefaults {
     fn default() -> Self {
         Self {
+            controller: PathController::default(),
             base: RobotBase::default(),
             max_speed_m_s: 0.5,
             max_turn_rate_rad_s: 1.9,
@@ -84,6 +97,14 @@ const PREFER_FORWARD: &str = "      PreferForwardCritic: {enabled: true, cost_po
                               threshold_to_consider: 0.5}\n";
 
 impl NavigationDefaults {
+    /// Defaults for this number of robots: several have the controller that takes little computing time.
+    #[must_use]
+    pub fn for_robots(count: usize) -> Self {
+        let several = PathController::RegulatedPurePursuit;
+        let controller = if count > 1 { several } else { PathController::default() };
+        Self { controller, ..Self::default() }
+    }
+
     /// Returns the parameter file for a robot.
     #[must_use]
     pub fn yaml(&self, profile: &RobotProfile) -> String {
@@ -100,13 +121,7 @@ impl NavigationDefaults {
     }
 
     fn write_controller(&self, profile: &RobotProfile, text: &mut String) {
-        let (speed, turn) = (self.max_speed_m_s, self.max_turn_rate_rad_s);
         let stamped = profile.takes_stamped_velocities();
-        let (model, side_speed, least_speed) = match self.base {
-            RobotBase::Differential => ("DiffDrive", 0.0, -0.35 * speed),
-            RobotBase::Omnidirectional => ("Omni", speed, -0.35 * speed),
-            RobotBase::Ackermann { .. } => ("Ackermann", 0.0, -0.5 * speed),
-        };
         let _ = write!(
             text,
             "controller_server:\n  ros__parameters:\n    use_sim_time: true\n\
@@ -122,15 +137,55 @@ impl NavigationDefaults {
              \x20   goal_checker:\n      plugin: nav2_controller::SimpleGoalChecker\n\
              \x20     xy_goal_tolerance: 0.25\n      yaw_goal_tolerance: 0.25\n      stateful: true\n\
              {path_handler}\
-             \x20   FollowPath:\n      plugin: nav2_mppi_controller::MPPIController\n\
+             \x20   FollowPath:\n",
+            path_handler = self.path_handler(),
+            odom = profile.odometry.as_deref().unwrap_or("odom"),
+        );
+        match self.controller {
+            PathController::Mppi => self.write_mppi(profile, text),
+            PathController::RegulatedPurePursuit => self.write_pure_pursuit(text),
+        }
+    }
+
+    /// Writes the parameters of regulated pure pursuit: those of Nav2's documentation at the speed of the robot.
+    fn write_pure_pursuit(&self, text: &mut String) {
+        let turns = !self.is_car();
+        let _ = write!(
+            text,
+            "      plugin: nav2_regulated_pure_pursuit_controller::RegulatedPurePursuitController\n\
+             \x20     desired_linear_vel: {speed}\n      lookahead_dist: 0.6\n      min_lookahead_dist: 0.3\n\
+             \x20     max_lookahead_dist: 0.9\n      lookahead_time: 1.5\n\
+             \x20     use_velocity_scaled_lookahead_dist: true\n      min_approach_linear_velocity: 0.05\n\
+             \x20     approach_velocity_scaling_dist: 0.6\n      use_collision_detection: true\n\
+             \x20     max_allowed_time_to_collision_up_to_carrot: 1.0\n\
+             \x20     use_regulated_linear_velocity_scaling: true\n\
+             \x20     regulated_linear_scaling_min_radius: 0.9\n      regulated_linear_scaling_min_speed: 0.25\n\
+             \x20     use_cost_regulated_linear_velocity_scaling: false\n      transform_tolerance: 0.1\n\
+             \x20     use_rotate_to_heading: {turns}\n      rotate_to_heading_min_angle: 0.785\n\
+             \x20     rotate_to_heading_angular_vel: {turn:.2}\n      max_angular_accel: 3.2\n\
+             \x20     allow_reversing: {backwards}\n",
+            speed = self.max_speed_m_s,
+            turn = self.max_turn_rate_rad_s.min(1.8),
+            backwards = self.is_car(),
+        );
+    }
+
+    fn write_mppi(&self, profile: &RobotProfile, text: &mut String) {
+        let (speed, turn) = (self.max_speed_m_s, self.max_turn_rate_rad_s);
+        let (model, side_speed, least_speed) = match self.base {
+            RobotBase::Differential => ("DiffDrive", 0.0, -0.35 * speed),
+            RobotBase::Omnidirectional => ("Omni", speed, -0.35 * speed),
+            RobotBase::Ackermann { .. } => ("Ackermann", 0.0, -0.5 * speed),
+        };
+        let _ = write!(
+            text,
+            "      plugin: nav2_mppi_controller::MPPIController\n\
              \x20     time_steps: 56\n      model_dt: 0.05\n      batch_size: 1000\n\
              \x20     vx_std: {vx_std:.3}\n      vy_std: {vy_std:.3}\n      wz_std: 0.4\n\
              \x20     vx_max: {speed}\n      vx_min: {least_speed}\n      vy_max: {side_speed}\n\
              \x20     wz_max: {turn}\n      ax_max: 3.0\n      ax_min: -3.0\n      ay_max: 3.0\n      az_max: 3.5\n\
              \x20     iteration_count: 1\n      prune_distance: {prune:.2}\n      transform_tolerance: 0.1\n\
              \x20     temperature: 0.3\n      gamma: 0.015\n      motion_model: {model}\n",
-            path_handler = self.path_handler(),
-            odom = profile.odometry.as_deref().unwrap_or("odom"),
             vx_std = (0.4 * speed).max(0.2),
             vy_std = (0.4 * speed).max(0.2),
             prune = self.prune_distance_m(),
@@ -241,12 +296,23 @@ impl NavigationDefaults {
         );
     }
 
-    /// Tree of a car; other robots have that of Nav2.
+    /// Tree of a car, and of robots that follow a path without deviation; others have that of Nav2.
     fn tree(&self) -> String {
-        if !self.is_car() {
-            return String::new();
+        let file = match (self.is_car(), self.controller) {
+            (true, _) => NAVIGATE_CAR_TO_POSE_FILE,
+            (false, PathController::RegulatedPurePursuit) => NAVIGATE_KEEPING_PATH_FILE,
+            (false, PathController::Mppi) => return String::new(),
+        };
+        format!("    default_nav_to_pose_bt_xml: {file}\n")
+    }
+
+    /// Update rates of the local and the global costmap \[Hz\]. A robot that only stops before obstacles needs no more than
+    /// the defaults of Nav2.
+    fn costmap_rates_hz(&self) -> [f64; 2] {
+        match self.controller {
+            PathController::Mppi => [10.0, 2.0],
+            PathController::RegulatedPurePursuit => [5.0, 1.0],
         }
-        format!("    default_nav_to_pose_bt_xml: {NAVIGATE_CAR_TO_POSE_FILE}\n")
     }
 
     fn write_behaviors(&self, profile: &RobotProfile, text: &mut String) {
@@ -310,6 +376,7 @@ impl NavigationDefaults {
                 profile.base()
             )
         };
+        let [local_hz, global_hz] = self.costmap_rates_hz();
         let side_m = (2.0 * (HORIZON_S * self.max_speed_m_s + 1.0)).max(4.0).ceil() as usize;
         let _ = write!(
             text,
@@ -317,8 +384,8 @@ impl NavigationDefaults {
              \x20     rolling_window: true\n      width: {side_m}\n      height: {side_m}\n\
              \x20     plugins: [obstacle_layer, inflation_layer]\n{layers}\
              global_costmap:\n  global_costmap:\n    ros__parameters:\n{}",
-            common(profile.odom(), 10.0, &shape),
-            common(self.global_frame(profile), 2.0, planned_shape),
+            common(profile.odom(), local_hz, &shape),
+            common(self.global_frame(profile), global_hz, planned_shape),
         );
         let rolling = format!(
             "      rolling_window: true\n      width: {UNMAPPED_SIDE_M}\n      height: {UNMAPPED_SIDE_M}\n"

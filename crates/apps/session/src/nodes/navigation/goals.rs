@@ -3,11 +3,11 @@
 use std::fmt;
 
 use periplus_geometry::Pose2;
-use periplus_graph::{
-    ActionClient, GoalProgress, GoalState, Graph, GraphError, Node, NodeSettings, SentGoal,
-};
+use periplus_graph::{ActionClient, GoalProgress, GoalState, Graph, GraphError, Node, SentGoal};
 use periplus_msgs::geometry_msgs::PoseStamped;
 use periplus_msgs::nav2_msgs::{NavigateToPose, NavigateToPoseGoal};
+
+use crate::nodes::namespace::RobotNamespace;
 
 /// Time that goals are sent again after a rejection \[ns\]: the map or a transform may not exist yet.
 const PATIENCE_NS: i64 = 20_000_000_000;
@@ -98,7 +98,20 @@ impl GoalDriver {
     /// # Errors
     /// When the graph refuses the node.
     pub fn new(graph: &Graph, frame: &str, goals: Vec<Pose2>) -> Result<Self, GraphError> {
-        let node = graph.node(NodeSettings::new("periplus_navigate"))?;
+        Self::within(graph, &RobotNamespace::default(), frame, goals)
+    }
+
+    /// Creates the client of a robot's navigator.
+    ///
+    /// # Errors
+    /// When the graph refuses the node.
+    pub fn within(
+        graph: &Graph,
+        namespace: &RobotNamespace,
+        frame: &str,
+        goals: Vec<Pose2>,
+    ) -> Result<Self, GraphError> {
+        let node = namespace.node(graph, "periplus_navigate")?;
         Ok(Self {
             client: node.action_client("navigate_to_pose")?,
             frame: frame.to_owned(),
