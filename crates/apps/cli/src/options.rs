@@ -12,6 +12,7 @@ use crate::compare::RunComparisonOptions;
 use crate::conformance::ConformanceOptions;
 use crate::costmap::serve::CostmapServeOptions;
 use crate::demo::DemoOptions;
+use crate::dataset::DatasetOptions;
 use crate::doctor::DoctorOptions;
 use crate::launch::LaunchOptions;
 use crate::localize::LocalizeOptions;
@@ -72,6 +73,7 @@ pub(crate) enum Command {
     Slam(SlamOptions),
     Localize(LocalizeOptions),
     Look(Box<LookOptions>),
+    Dataset(Box<DatasetOptions>),
     Navigate(Box<NavigateOptions>),
     Scenario(Box<ScenarioOptions>),
     Sweep(Box<SweepOptions>),

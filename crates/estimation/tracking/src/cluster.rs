@@ -2,10 +2,13 @@
 
 use periplus_geometry::DVec3;
 
-use crate::{RadarCells, RadarPoint};
+use crate::{RadarCells, RadarPoint, ReturnNoise};
 
 /// Maximum distance of neighbours in cells: the next cell, with a margin for rounding.
 const NEIGHBOUR_CELLS_RATIO: f64 = 1.5;
+
+/// Number of standard deviations of noise by which neighbours can be farther apart.
+const NEIGHBOUR_NOISE_RATIO: f64 = 2.0;
 
 /// Returns that belong together.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,24 +26,28 @@ pub(crate) struct Cluster {
 pub(crate) fn clusters(
     points: &[RadarPoint],
     cells: &RadarCells,
+    noise: &ReturnNoise,
     doppler_m_per_s: f64,
 ) -> Vec<Cluster> {
+    let reach = |width: f64, stddev: f64| {
+        NEIGHBOUR_CELLS_RATIO * width + NEIGHBOUR_NOISE_RATIO * stddev
+    };
+    let range_m = reach(cells.range_m, noise.range_m);
+    let azimuth_rad = reach(cells.azimuth_rad, noise.azimuth_rad);
+    let elevation_rad = reach(cells.elevation_rad, noise.elevation_rad);
     let mut order: Vec<usize> = (0..points.len()).collect();
     order.sort_by(|&a, &b| points[a].azimuth_rad.total_cmp(&points[b].azimuth_rad).then(a.cmp(&b)));
     let mut roots: Vec<usize> = (0..points.len()).collect();
-    let doppler_m_per_s = doppler_m_per_s.max(NEIGHBOUR_CELLS_RATIO * cells.doppler_m_per_s);
+    let doppler_m_per_s =
+        doppler_m_per_s.max(reach(cells.doppler_m_per_s, noise.doppler_m_per_s));
     for (index, &a) in order.iter().enumerate() {
         for &b in &order[index + 1..] {
             let (a_point, b_point) = (&points[a], &points[b]);
-            let azimuth_rad = b_point.azimuth_rad - a_point.azimuth_rad;
-            if azimuth_rad > NEIGHBOUR_CELLS_RATIO * cells.azimuth_rad {
+            if b_point.azimuth_rad - a_point.azimuth_rad > azimuth_rad {
                 break;
             }
-            let touch = |difference: f64, width: f64| {
-                difference.abs() <= NEIGHBOUR_CELLS_RATIO * width
-            };
-            if touch(a_point.range_m - b_point.range_m, cells.range_m)
-                && touch(a_point.elevation_rad - b_point.elevation_rad, cells.elevation_rad)
+            if (a_point.range_m - b_point.range_m).abs() <= range_m
+                && (a_point.elevation_rad - b_point.elevation_rad).abs() <= elevation_rad
                 && (a_point.doppler_m_per_s - b_point.doppler_m_per_s).abs() <= doppler_m_per_s
             {
                 let (a, b) = (root(&mut roots, a), root(&mut roots, b));
@@ -118,7 +125,7 @@ mod tests {
             point(10.0, 0.0, -2.0),
             point(12.0, 2.0, 0.0),
         ];
-        let found = clusters(&points, &CELLS, 0.5);
+        let found = clusters(&points, &CELLS, &ReturnNoise::default(), 0.5);
         assert_eq!(found.len(), 4, "{found:?}");
         let mean = &found[0];
         assert!((mean.position_m.length() - 10.5).abs() < 0.01, "{mean:?}");
@@ -129,7 +136,7 @@ mod tests {
     #[test]
     fn strong_returns_count_more() {
         let strong = RadarPoint { amplitude_db: 10.0, ..point(10.0, 0.0, 0.0) };
-        let found = clusters(&[strong, point(10.5, 0.0, 0.0)], &CELLS, 0.5);
+        let found = clusters(&[strong, point(10.5, 0.0, 0.0)], &CELLS, &ReturnNoise::default(), 0.5);
         assert_eq!(found.len(), 1);
         assert!((found[0].position_m.x - (10.0 + 0.5 / 11.0)).abs() < 1e-9, "{found:?}");
         assert_eq!(found[0].size_m, DVec3::new(0.5, 10.5 * 0.02, 10.5 * 0.1));

@@ -68,6 +68,19 @@ impl RadarPoint {
     }
 }
 
+/// Standard deviations of the returns of a radar beside rounding to cells; zero by default.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ReturnNoise {
+    /// Range \[m\].
+    pub range_m: f64,
+    /// Azimuth \[rad\].
+    pub azimuth_rad: f64,
+    /// Elevation \[rad\].
+    pub elevation_rad: f64,
+    /// Radial velocity \[m/s\].
+    pub doppler_m_per_s: f64,
+}
+
 /// Widths of the resolution cells of a radar.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RadarCells {

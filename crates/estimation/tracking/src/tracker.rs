@@ -7,7 +7,7 @@ use periplus_geometry::DVec3;
 
 use crate::association::nearest_neighbours;
 use crate::cluster::{Cluster, clusters};
-use crate::{ConstantVelocityFilter, RadarCells, RadarPoint, ego_velocity};
+use crate::{ConstantVelocityFilter, RadarCells, RadarPoint, ReturnNoise, ego_velocity};
 
 /// Weight of the newest cluster in the mean size of a track, and in its mean speed over ground.
 const NEWEST_RATIO: f64 = 0.3;
@@ -120,6 +120,7 @@ impl TrackedObject {
 #[derive(Clone, Debug, PartialEq)]
 pub struct RadarTracker {
     cells: RadarCells,
+    noise: ReturnNoise,
     settings: TrackerSettings,
     tracks: Vec<TrackedObject>,
     next_id: u64,
@@ -130,7 +131,14 @@ impl RadarTracker {
     /// Creates a tracker without tracks for a radar with these resolution cells.
     #[must_use]
     pub fn new(cells: RadarCells, settings: TrackerSettings) -> Self {
-        Self { cells, settings, tracks: Vec::new(), next_id: 0, last_ns: None }
+        let noise = ReturnNoise::default();
+        Self { cells, noise, settings, tracks: Vec::new(), next_id: 0, last_ns: None }
+    }
+
+    /// Sets the noise of the returns.
+    #[must_use]
+    pub fn with_noise(self, noise: ReturnNoise) -> Self {
+        Self { noise, ..self }
     }
 
     /// Returns the confirmed tracks, the oldest first.
@@ -142,6 +150,12 @@ impl RadarTracker {
     pub fn clear(&mut self) {
         self.tracks.clear();
         self.last_ns = None;
+    }
+
+    /// Resets to the initial state; numbers of tracks start again.
+    pub fn reset(&mut self) {
+        self.clear();
+        self.next_id = 0;
     }
 
     /// Updates the tracks by a scan at a time \[ns\]. Returns that are not finite are ignored; so is a scan that is older
@@ -160,9 +174,14 @@ impl RadarTracker {
         let points: Vec<RadarPoint> =
             points.iter().copied().filter(RadarPoint::is_finite).collect();
         let ego_m_per_s = ego_velocity(&points, &self.cells);
-        let found = clusters(&points, &self.cells, self.settings.cluster_doppler_m_per_s);
+        let found = clusters(
+            &points,
+            &self.cells,
+            &self.noise,
+            self.settings.cluster_doppler_m_per_s,
+        );
         let covariances: Vec<Matrix3<f64>> =
-            found.iter().map(|cluster| covariance_m2(cluster, &self.cells)).collect();
+            found.iter().map(|cluster| covariance_m2(cluster, &self.cells, &self.noise)).collect();
         let variance = self.doppler_variance();
         let assigned = nearest_neighbours(
             self.tracks.len(),
@@ -191,10 +210,9 @@ impl RadarTracker {
         }
     }
 
-    /// Variance of the radial velocity of a cluster: that of rounding to a cell.
+    /// Variance of the radial velocity of a cluster: that of rounding to a cell, and that of noise.
     fn doppler_variance(&self) -> f64 {
-        let width = self.cells.doppler_m_per_s;
-        width * width / 12.0
+        variance(self.cells.doppler_m_per_s, self.noise.doppler_m_per_s)
     }
 
     fn begin(
@@ -259,23 +277,27 @@ impl TrackedObject {
     }
 }
 
-/// Covariance of the position of a cluster: rounding to a cell along and across the line of sight, and a sixth of the
-/// extent of the cluster, whose visible part varies.
-fn covariance_m2(cluster: &Cluster, cells: &RadarCells) -> Matrix3<f64> {
+/// Variance of rounding to a cell and of noise.
+fn variance(width: f64, stddev: f64) -> f64 {
+    width * width / 12.0 + stddev * stddev
+}
+
+/// Covariance of the position of a cluster: rounding to a cell and noise along and across the line of sight, and a sixth of
+/// the extent of the cluster, whose visible part varies.
+fn covariance_m2(cluster: &Cluster, cells: &RadarCells, noise: &ReturnNoise) -> Matrix3<f64> {
     let range_m = cluster.position_m.length();
     let direction = cluster.position_m.normalize_or_zero();
     let across = DVec3::Z.cross(direction).normalize_or(DVec3::Y);
     let up = direction.cross(across);
-    let variance = |width_m: f64| width_m * width_m / 12.0;
     let widths_m = [
-        (direction, cells.range_m),
-        (across, range_m * cells.azimuth_rad),
-        (up, range_m * cells.elevation_rad),
+        (direction, cells.range_m, noise.range_m),
+        (across, range_m * cells.azimuth_rad, range_m * noise.azimuth_rad),
+        (up, range_m * cells.elevation_rad, range_m * noise.elevation_rad),
     ];
     let mut covariance = Matrix3::zeros();
-    for (axis, width_m) in widths_m {
+    for (axis, width_m, stddev_m) in widths_m {
         let axis = nalgebra::Vector3::new(axis.x, axis.y, axis.z);
-        covariance += axis * axis.transpose() * variance(width_m);
+        covariance += axis * axis.transpose() * variance(width_m, stddev_m);
     }
     for axis in 0..3 {
         let part_m = cluster.size_m[axis] / 6.0;

@@ -35,6 +35,7 @@ mod drive_score;
 mod files;
 mod footprint;
 mod free_floor;
+mod ground_truth;
 mod optics;
 mod pace;
 mod photo;
@@ -56,11 +57,17 @@ pub use drive::{DriveError, Driver, ScriptFindings, VelocityTopic, velocity_topi
 pub use drive_score::{DriveCollision, DriveScore};
 pub use files::AssetFiles;
 pub use free_floor::{reachable_cells, spread_poses};
+pub use ground_truth::{
+    CameraFrame, LabelledPoint, LabellingCamera, LabellingError, LabellingLidar, LidarFrame,
+};
 pub use optics::{OpticalRange, OpticalSurface};
 pub use pace::RealTimePacer;
 pub use periplus_physics::limits::STEP_RANGE_S;
 pub use periplus_physics::{Diverged, PhysicsMode};
-pub use periplus_rendering::{LensError, SensedGeometry};
+pub use periplus_rendering::{
+    DetectedObject, LabelledObject, LensError, ObjectLabel, PixelBox, PixelRegion, RenderedImages,
+    SensedGeometry, box_corners,
+};
 pub use periplus_sensors::Quirks;
 pub use photo::{BoundingBox, Photo, PhotoRequest};
 pub use profile::{Work, WorkProfile};

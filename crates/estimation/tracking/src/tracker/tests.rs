@@ -117,3 +117,23 @@ fn updates_are_repeatable() {
     tracker.update(0, &[]);
     assert_eq!(tracker, before);
 }
+
+/// Returns whose ranges scatter by up to 1.6 m are one object for a tracker that knows of it, and several for another.
+#[test]
+fn known_noise_joins_scattered_returns() {
+    let count = |noise: ReturnNoise| {
+        let mut tracker =
+            RadarTracker::new(CELLS, TrackerSettings::default()).with_noise(noise);
+        for scan in 0..10_i32 {
+            let shift_m = if scan % 2 == 0 { 0.4 } else { -0.4 };
+            let points = [-0.4, 0.4].map(|part| RadarPoint {
+                range_m: 15.0 + shift_m * part / 0.4 + part,
+                ..RadarPoint::default()
+            });
+            tracker.update(i64::from(scan) * INTERVAL_NS, &points);
+        }
+        tracker.confirmed().count()
+    };
+    assert_eq!(count(ReturnNoise { range_m: 0.6, ..ReturnNoise::default() }), 1);
+    assert!(count(ReturnNoise::default()) > 1);
+}

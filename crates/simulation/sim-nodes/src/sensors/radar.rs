@@ -12,7 +12,7 @@ use periplus_physics::LinkState;
 use periplus_rendering::{PartId, SensedGeometry, filter};
 use periplus_scene::RadarSpec;
 use periplus_sensors::{RadarEcho, RadarSensor, RayView};
-use periplus_tracking::{RadarCells, RadarTracker, TrackerSettings};
+use periplus_tracking::{RadarCells, RadarTracker, ReturnNoise, TrackerSettings};
 
 use self::messages::{point_of, return_of, track_of};
 use super::{DeviceResult, Mount, SensorBuildContext, Timer};
@@ -49,6 +49,13 @@ pub(super) fn device(context: SensorBuildContext<'_, '_>, spec: &RadarSpec) -> D
         elevation_rad,
         doppler_m_per_s: spec.doppler_resolution_m_per_s,
     };
+    // The accuracy of a radar is known from its data sheet.
+    let noise = ReturnNoise {
+        range_m: spec.noise.range_stddev_m,
+        azimuth_rad: spec.noise.azimuth_stddev_rad,
+        elevation_rad: spec.noise.elevation_stddev_rad,
+        doppler_m_per_s: spec.noise.doppler_stddev_m_per_s,
+    };
     let mut outputs = Vec::new();
     for port in &context.ports {
         let topic = port.topic(context.sensor_context, "/radar");
@@ -62,7 +69,7 @@ pub(super) fn device(context: SensorBuildContext<'_, '_>, spec: &RadarSpec) -> D
     Ok(Box::new(RadarDevice {
         state: RadarState {
             timer: Timer::new(context.sensor_context, &context.ports),
-            tracker: RadarTracker::new(cells, TrackerSettings::default()),
+            tracker: RadarTracker::new(cells, TrackerSettings::default()).with_noise(noise),
             is_tracking: false,
         },
         mount: context.mount,
@@ -125,7 +132,7 @@ impl Device for RadarDevice {
 
     fn reset(&mut self, time_ns: i64) {
         self.state.timer.reset(time_ns);
-        self.state.tracker.clear();
+        self.state.tracker.reset();
         self.state.is_tracking = false;
     }
 
