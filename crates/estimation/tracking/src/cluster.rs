@@ -29,17 +29,15 @@ pub(crate) fn clusters(
     noise: &ReturnNoise,
     doppler_m_per_s: f64,
 ) -> Vec<Cluster> {
-    let reach = |width: f64, stddev: f64| {
-        NEIGHBOUR_CELLS_RATIO * width + NEIGHBOUR_NOISE_RATIO * stddev
-    };
+    let reach =
+        |width: f64, stddev: f64| NEIGHBOUR_CELLS_RATIO * width + NEIGHBOUR_NOISE_RATIO * stddev;
     let range_m = reach(cells.range_m, noise.range_m);
     let azimuth_rad = reach(cells.azimuth_rad, noise.azimuth_rad);
     let elevation_rad = reach(cells.elevation_rad, noise.elevation_rad);
     let mut order: Vec<usize> = (0..points.len()).collect();
     order.sort_by(|&a, &b| points[a].azimuth_rad.total_cmp(&points[b].azimuth_rad).then(a.cmp(&b)));
     let mut roots: Vec<usize> = (0..points.len()).collect();
-    let doppler_m_per_s =
-        doppler_m_per_s.max(reach(cells.doppler_m_per_s, noise.doppler_m_per_s));
+    let doppler_m_per_s = doppler_m_per_s.max(reach(cells.doppler_m_per_s, noise.doppler_m_per_s));
     for (index, &a) in order.iter().enumerate() {
         for &b in &order[index + 1..] {
             let (a_point, b_point) = (&points[a], &points[b]);
@@ -86,11 +84,8 @@ fn cluster(members: &[RadarPoint], cells: &RadarCells) -> Cluster {
         (low_m, high_m) = (low_m.min(at_m), high_m.max(at_m));
         range_m = range_m.max(point.range_m);
     }
-    let cell_m = DVec3::new(
-        cells.range_m,
-        range_m * cells.azimuth_rad,
-        range_m * cells.elevation_rad,
-    );
+    let cell_m =
+        DVec3::new(cells.range_m, range_m * cells.azimuth_rad, range_m * cells.elevation_rad);
     Cluster {
         position_m: position_m / sum,
         doppler_m_per_s: doppler_m_per_s / sum,
@@ -136,7 +131,8 @@ mod tests {
     #[test]
     fn strong_returns_count_more() {
         let strong = RadarPoint { amplitude_db: 10.0, ..point(10.0, 0.0, 0.0) };
-        let found = clusters(&[strong, point(10.5, 0.0, 0.0)], &CELLS, &ReturnNoise::default(), 0.5);
+        let found =
+            clusters(&[strong, point(10.5, 0.0, 0.0)], &CELLS, &ReturnNoise::default(), 0.5);
         assert_eq!(found.len(), 1);
         assert!((found[0].position_m.x - (10.0 + 0.5 / 11.0)).abs() < 1e-9, "{found:?}");
         assert_eq!(found[0].size_m, DVec3::new(0.5, 10.5 * 0.02, 10.5 * 0.1));

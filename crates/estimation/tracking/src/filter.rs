@@ -27,7 +27,9 @@ impl ConstantVelocityFilter {
         let mut covariance = Matrix6::zeros();
         covariance.fixed_view_mut::<3, 3>(0, 0).copy_from(&position_covariance_m2);
         let variance = velocity_stddev_m_per_s * velocity_stddev_m_per_s;
-        covariance.fixed_view_mut::<3, 3>(3, 3).copy_from(&Matrix3::from_diagonal_element(variance));
+        covariance
+            .fixed_view_mut::<3, 3>(3, 3)
+            .copy_from(&Matrix3::from_diagonal_element(variance));
         Self { state, covariance }
     }
 

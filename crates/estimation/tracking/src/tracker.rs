@@ -174,12 +174,8 @@ impl RadarTracker {
         let points: Vec<RadarPoint> =
             points.iter().copied().filter(RadarPoint::is_finite).collect();
         let ego_m_per_s = ego_velocity(&points, &self.cells);
-        let found = clusters(
-            &points,
-            &self.cells,
-            &self.noise,
-            self.settings.cluster_doppler_m_per_s,
-        );
+        let found =
+            clusters(&points, &self.cells, &self.noise, self.settings.cluster_doppler_m_per_s);
         let covariances: Vec<Matrix3<f64>> =
             found.iter().map(|cluster| covariance_m2(cluster, &self.cells, &self.noise)).collect();
         let variance = self.doppler_variance();

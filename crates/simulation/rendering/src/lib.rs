@@ -41,8 +41,8 @@ mod render_scene;
 
 pub use assets::{AssetLoader, NoAssets};
 pub use heightmap::{HeightmapError, HeightmapSamples, sample_heightmap};
-pub use label::is_label_plugin;
 pub use images::{ImageOutputs, RenderRequest, RenderedImages};
+pub use label::is_label_plugin;
 pub use lens::{Lens, LensError};
 pub use mesh::{SelectedMesh, select_submesh};
 pub use objects::{

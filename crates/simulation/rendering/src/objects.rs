@@ -76,11 +76,8 @@ struct Bounds {
 
 impl Bounds {
     fn add(bounds: Option<Self>, [column, row]: [u32; 2]) -> Self {
-        let all = bounds.unwrap_or(Self {
-            low: [column, row],
-            high: [column, row],
-            pixel_count: 0,
-        });
+        let all =
+            bounds.unwrap_or(Self { low: [column, row], high: [column, row], pixel_count: 0 });
         Self {
             low: [all.low[0].min(column), all.low[1].min(row)],
             high: [all.high[0].max(column), all.high[1].max(row)],

@@ -129,7 +129,8 @@ impl RadarSensor {
     fn cast(&mut self, view: &RayView<'_>, world_from_sensor: Pose) {
         let Pose { translation: origin_m, rotation } = world_from_sensor;
         let (min_m, max_m) = (self.spec.range_min_m, self.spec.range_max_m);
-        let aim = |direction: DVec3| Ray { origin_m, direction: rotation * direction, min_m, max_m };
+        let aim =
+            |direction: DVec3| Ray { origin_m, direction: rotation * direction, min_m, max_m };
         self.rays.clear();
         self.rays.extend(self.cells.rays.iter().map(|ray| aim(ray.direction)));
         self.hits.clear();
@@ -169,8 +170,7 @@ struct Noise {
 
 impl Noise {
     fn draw(spec: &RadarNoise, stream: &mut Stream) -> Self {
-        let mut draw =
-            |stddev: f64| if stddev == 0.0 { 0.0 } else { stddev * stream.normal() };
+        let mut draw = |stddev: f64| if stddev == 0.0 { 0.0 } else { stddev * stream.normal() };
         Self {
             range_m: draw(spec.range_stddev_m),
             azimuth_rad: draw(spec.azimuth_stddev_rad),

@@ -54,7 +54,8 @@ impl std::fmt::Display for LabellingError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::NoSensor { kind, name, known } => {
-                let what = name.as_ref().map_or(format!("no {kind}"), |it| format!("no {kind} `{it}`"));
+                let what =
+                    name.as_ref().map_or(format!("no {kind}"), |it| format!("no {kind} `{it}`"));
                 if known.is_empty() {
                     write!(f, "{what}: no model here has a {kind}")
                 } else {

@@ -112,7 +112,9 @@ impl<'a> Capture<'a> {
         let time_s = simulation.time_ns() as f64 * 1e-9;
         match (&mut self.writer, &image, &cloud) {
             (Writer::Coco(writer), Some(image), _) => writer.add(number, image)?,
-            (Writer::Kitti(writer), Some(image), Some(cloud)) => writer.add(number, image, cloud)?,
+            (Writer::Kitti(writer), Some(image), Some(cloud)) => {
+                writer.add(number, image, cloud)?
+            }
             (Writer::Lidar(writer), _, Some(cloud)) => writer.add(number, time_s, cloud)?,
             // The sensors of each format were built with its writer.
             _ => {}

@@ -27,7 +27,8 @@ pub(super) fn class_name(word: &str) -> Result<ClassName, String> {
 pub(super) fn names(objects: &[LabelledObject], given: &[ClassName]) -> BTreeMap<u8, String> {
     let mut names: BTreeMap<u8, String> = BTreeMap::new();
     for object in objects {
-        let model = object.model.trim_end_matches(|it: char| it.is_ascii_digit() || "_-. ".contains(it));
+        let model =
+            object.model.trim_end_matches(|it: char| it.is_ascii_digit() || "_-. ".contains(it));
         let name = if model.is_empty() { object.model.as_str() } else { model };
         names.entry(object.label.class).or_insert_with(|| name.to_owned());
     }
@@ -53,7 +54,12 @@ mod tests {
 
     #[test]
     fn classes_are_named_by_their_first_model_or_by_the_user() {
-        let objects = [object(1, 1, "person_12"), object(1, 2, "guard"), object(2, 1, "42"), object(3, 1, "box")];
+        let objects = [
+            object(1, 1, "person_12"),
+            object(1, 2, "guard"),
+            object(2, 1, "42"),
+            object(3, 1, "box"),
+        ];
         let given = [class_name("3=crate").unwrap(), class_name("9=unseen").unwrap()];
         let found: Vec<(u8, String)> = names(&objects, &given).into_iter().collect();
         let expected = [(1, "person"), (2, "42"), (3, "crate"), (9, "unseen")];

@@ -85,8 +85,8 @@ fn run_lengths(images: &RenderedImages, label: ObjectLabel) -> Vec<usize> {
     for column in 0..width {
         for row in 0..height {
             let pixel = row * width + column;
-            let is_inside = images.classes[pixel] == label.class
-                && images.instances[pixel] == label.instance;
+            let is_inside =
+                images.classes[pixel] == label.class && images.instances[pixel] == label.instance;
             if is_inside != was_inside {
                 counts.push(0);
                 was_inside = is_inside;

@@ -74,14 +74,13 @@ fn objects_at_rest_are_distinguished_from_moving_ones() {
     let posts = [(12.0, -4.0), (14.0, -2.0), (13.0, 2.0), (12.0, 5.0), (20.0, 7.0)];
     for scan in 0..10_i32 {
         let time_s = f64::from(scan) * 0.05;
-        let mut points: Vec<RadarPoint> = posts
-            .iter()
-            .map(|&(x, y)| seen(DVec3::new(x, y, 0.0) - ego * time_s, -ego))
-            .collect();
+        let mut points: Vec<RadarPoint> =
+            posts.iter().map(|&(x, y)| seen(DVec3::new(x, y, 0.0) - ego * time_s, -ego)).collect();
         points.push(seen(DVec3::new(8.0, 0.5, 0.0), DVec3::ZERO));
         tracker.update(i64::from(scan) * INTERVAL_NS, &points);
     }
-    let moving: Vec<bool> = tracker.confirmed().map(|it| it.class() == TrackClass::Dynamic).collect();
+    let moving: Vec<bool> =
+        tracker.confirmed().map(|it| it.class() == TrackClass::Dynamic).collect();
     assert_eq!(moving, [false, false, false, false, false, true]);
     assert!(tracker.confirmed().all(|track| track.class() != TrackClass::Unknown));
 }
@@ -122,8 +121,7 @@ fn updates_are_repeatable() {
 #[test]
 fn known_noise_joins_scattered_returns() {
     let count = |noise: ReturnNoise| {
-        let mut tracker =
-            RadarTracker::new(CELLS, TrackerSettings::default()).with_noise(noise);
+        let mut tracker = RadarTracker::new(CELLS, TrackerSettings::default()).with_noise(noise);
         for scan in 0..10_i32 {
             let shift_m = if scan % 2 == 0 { 0.4 } else { -0.4 };
             let points = [-0.4, 0.4].map(|part| RadarPoint {

@@ -114,7 +114,8 @@ fn weak_returns_are_not_reported() {
 /// Noise moves returns to other cells, by whole cells, and is the same for a seed.
 #[test]
 fn noise_is_repeatable_and_on_cells() {
-    let noise = RadarNoise { range_stddev_m: 1.0, doppler_stddev_m_per_s: 0.5, ..RadarNoise::default() };
+    let noise =
+        RadarNoise { range_stddev_m: 1.0, doppler_stddev_m_per_s: 0.5, ..RadarNoise::default() };
     let noisy = RadarSpec { noise, ..spec() };
     let at_rest = Motion::at_rest(Pose::IDENTITY);
     let run = |seed| scan(&noisy, &cube(20.0, 0.0), at_rest, DVec3::ZERO, seed);

@@ -5,7 +5,9 @@ use periplus_graph::GraphError;
 use periplus_scene::{Sensor, SensorKind};
 
 use super::port::{SensorPort, ports};
-use super::{Mount, SensorContext, camera, contact, environment, imu, logical, navsat, radar, sonar};
+use super::{
+    Mount, SensorContext, camera, contact, environment, imu, logical, navsat, radar, sonar,
+};
 use crate::Device;
 
 /// Inputs for building a sensor's device.

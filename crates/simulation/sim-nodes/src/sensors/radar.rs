@@ -122,7 +122,8 @@ impl Device for RadarDevice {
             link: self.mount.link,
             link_from_data: self.mount.link_from_sensor(),
         };
-        let both = |out: &RadarOutput| [mount(out, out.scan.topic()), mount(out, out.tracks.topic())];
+        let both =
+            |out: &RadarOutput| [mount(out, out.scan.topic()), mount(out, out.tracks.topic())];
         self.outputs.iter().flat_map(both).collect()
     }
 

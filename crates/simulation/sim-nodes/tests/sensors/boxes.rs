@@ -44,9 +44,10 @@ fn boxes(in_world: &str, box_type: &str) -> Vec<(String, String, [f64; 4])> {
         let (x, y) = (it.center.position.x, it.center.position.y);
         [x - it.size_x / 2.0, y - it.size_y / 2.0, it.size_x, it.size_y]
     };
-    let found = message.detections.iter().map(|it| {
-        (it.results[0].hypothesis.class_id.clone(), it.id.clone(), edges(&it.bbox))
-    });
+    let found = message
+        .detections
+        .iter()
+        .map(|it| (it.results[0].hypothesis.class_id.clone(), it.id.clone(), edges(&it.bbox)));
     found.collect()
 }
 
@@ -62,10 +63,7 @@ fn boxes_around_visible_pixels() {
     // The inner side of the second box is seen, too: its edge at 6 m and y = 1.6 m is 13.3 px to the right.
     assert_eq!(
         boxes(&world, "2d"),
-        [
-            found("3", "side", [63.0, 45.0, 13.0, 10.0]),
-            found("7", "far", [45.0, 45.0, 10.0, 10.0])
-        ]
+        [found("3", "side", [63.0, 45.0, 13.0, 10.0]), found("7", "far", [45.0, 45.0, 10.0, 10.0])]
     );
 }
 

@@ -7,7 +7,8 @@ use crate::bench::Bench;
 
 /// Cells of 0.4 m, 0.02 rad and 0.1 m/s, 20 scans per second. At its height of 0.7 m the floor is seen from 35 m on, too
 /// weakly to be reported.
-const SETTINGS: &str = "<update_rate>20</update_rate><topic>radar</topic><gz_frame_id>radar</gz_frame_id>
+const SETTINGS: &str =
+    "<update_rate>20</update_rate><topic>radar</topic><gz_frame_id>radar</gz_frame_id>
   <gz:radar><horizontal_fov>1.0</horizontal_fov><vertical_fov>0.04</vertical_fov>
     <range><min>0.3</min><max>60</max><resolution>0.4</resolution></range>
     <azimuth_resolution>0.02</azimuth_resolution>

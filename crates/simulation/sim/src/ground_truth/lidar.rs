@@ -78,10 +78,11 @@ impl Simulation {
         };
         let spec = (**spec).clone();
         let streams = Streams::new(self.seed(), format!("{}/dataset", mounted.full_name));
-        let lidar = LidarSensor::new(&spec, &streams).map_err(|error| LabellingError::Impossible {
-            name: mounted.full_name.clone(),
-            reason: error.message.clone(),
-        })?;
+        let lidar =
+            LidarSensor::new(&spec, &streams).map_err(|error| LabellingError::Impossible {
+                name: mounted.full_name.clone(),
+                reason: error.message.clone(),
+            })?;
         Ok(LabellingLidar { spec, lidar, streams, frame_count: 0, mounted })
     }
 
@@ -122,7 +123,8 @@ impl Simulation {
         });
         let intensities = &lidar.lidar.last().intensities;
         let points = lidar.lidar.points().zip(intensities).zip(labels);
-        let points = points.filter(|((position_m, _), _)| position_m.iter().all(|it| it.is_finite()));
+        let points =
+            points.filter(|((position_m, _), _)| position_m.iter().all(|it| it.is_finite()));
         let points = points.map(|((position_m, &intensity), label)| LabelledPoint {
             position_m,
             intensity,

@@ -167,7 +167,8 @@ mod tests {
 
     #[test]
     fn occlusion_has_three_degrees() {
-        for (visible, degree) in [(100, "0"), (95, "0"), (94, "1"), (50, "1"), (49, "2"), (1, "2")] {
+        for (visible, degree) in [(100, "0"), (95, "0"), (94, "1"), (50, "1"), (49, "2"), (1, "2")]
+        {
             assert_eq!(line(20.0, 0.0, 0.0, visible)[2], degree);
         }
     }

@@ -2,8 +2,8 @@
 
 use periplus_diagnostics::Diagnostic;
 use periplus_geometry::Pose;
-use periplus_msgs::geometry_msgs::{Point, PoseWithCovariance, Quaternion, Vector3};
 use periplus_msgs::geometry_msgs::Pose as PoseMessage;
+use periplus_msgs::geometry_msgs::{Point, PoseWithCovariance, Quaternion, Vector3};
 use periplus_msgs::std_msgs::Header;
 use periplus_msgs::vision_msgs::{
     BoundingBox2D, BoundingBox3D, Detection2D, Detection2DArray, Detection3D, Detection3DArray,

@@ -12,8 +12,8 @@ use periplus_rendering::{ImageOutputs, RenderedImages};
 use periplus_scene::{Camera, CameraKind};
 use periplus_sensors::{CameraCalibration, Pinhole};
 
-use super::super::{SensorBuildError, SensorContext};
 use super::super::port::{Convention, SensorPort};
+use super::super::{SensorBuildError, SensorContext};
 use super::boxes::{BoxKind, Detections};
 use super::info::{calibration, message};
 use super::pixels::{Encoding, colour_image, depth_image, label_image, millimetre_image};
@@ -216,7 +216,9 @@ fn today(
             let kind = BoxKind::of(camera)?;
             let boxes = match kind {
                 BoxKind::Oriented => OutputKind::OrientedBoxes(port.publisher(&topic)?),
-                BoxKind::Visible | BoxKind::Full => OutputKind::Boxes(port.publisher(&topic)?, kind),
+                BoxKind::Visible | BoxKind::Full => {
+                    OutputKind::Boxes(port.publisher(&topic)?, kind)
+                }
             };
             let images = port.publisher(&format!("{topic}_image"))?;
             vec![
