@@ -99,16 +99,18 @@ fn an_actor_has_a_radial_velocity() {
     let before_m = position_m(&simulation);
     scans.drain();
     // The next scan is that of 4.05 s.
-    while scans.latest().is_none() {
-        simulation.step().unwrap();
-    }
+    let scan = loop {
+        match scans.latest() {
+            Some(scan) => break scan,
+            None => simulation.step().unwrap(),
+        }
+    };
     let after_m = position_m(&simulation);
     let time_s = (simulation.time_ns() - 4_000_000_000) as f64 * 1e-9;
     let velocity = (after_m - before_m) / time_s;
     let towards = DVec3::new(after_m.x, after_m.y, 0.0).normalize();
     let radial_m_per_s = velocity.dot(towards);
     assert!(radial_m_per_s < -1.0, "{radial_m_per_s}");
-    let scan = scans.latest().unwrap();
     let moving: Vec<_> = scan.returns.iter().filter(|it| it.doppler_velocity != 0.0).collect();
     assert!(!moving.is_empty());
     for seen in moving {
