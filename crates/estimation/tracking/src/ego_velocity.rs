@@ -18,7 +18,7 @@ const MIN_DETERMINANT_RATIO: f64 = 1e-4;
 /// change of the velocity within a cell of azimuth.
 const MAX_RESIDUAL_CELLS_RATIO: f64 = 1.5;
 
-/// Returns the velocity of a radar over ground along its x and y axes \[m/s\]; `None` without a majority of returns of
+/// Returns the velocity of a radar in the world along its x and y axes \[m/s\]; `None` without a majority of returns of
 /// objects at rest in different directions.
 ///
 /// An object at rest in the direction u has the radial velocity `-u · v` for the velocity v of the radar, so that most

@@ -9,10 +9,10 @@ use crate::association::nearest_neighbours;
 use crate::cluster::{Cluster, clusters};
 use crate::{ConstantVelocityFilter, RadarCells, RadarPoint, ReturnNoise, ego_velocity};
 
-/// Weight of the newest cluster in the mean size of a track, and in its mean speed over ground.
+/// Weight of the newest cluster in the mean size of a track, and in its mean speed in the world.
 const NEWEST_RATIO: f64 = 0.3;
 
-/// Radial speed over ground from which on an object moves, in cells of radial velocity.
+/// Radial speed in the world from which on an object moves, in cells of radial velocity.
 const MOVING_CELLS_RATIO: f64 = 2.0;
 
 /// Settings of a [`RadarTracker`].
@@ -51,7 +51,7 @@ impl Default for TrackerSettings {
     }
 }
 
-/// Motion of a tracked object over ground.
+/// Motion of a tracked object in the world.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TrackClass {
     /// The velocity of the radar itself was never found.
@@ -68,7 +68,7 @@ pub struct TrackedObject {
     id: u64,
     filter: ConstantVelocityFilter,
     size_m: DVec3,
-    /// Mean radial speed over ground \[m/s\].
+    /// Mean radial speed in the world \[m/s\].
     ground_speed_m_per_s: Option<f64>,
     class: TrackClass,
     /// The last scans, the newest last: true if they found the object.
@@ -108,7 +108,7 @@ impl TrackedObject {
         self.size_m
     }
 
-    /// Motion over ground.
+    /// Motion in the world.
     #[must_use]
     pub fn class(&self) -> TrackClass {
         self.class

@@ -160,7 +160,7 @@ impl RenderScene {
         let rays = self.rays_of(object.label)?;
         let [columns, rows] = window(request, object);
         let mut bounds = None;
-        for row in rows.clone() {
+        for row in rows {
             for column in columns.clone() {
                 if is_hit(&rays, request, column, row) {
                     bounds = Some(Bounds::add(bounds, [column, row]));
