@@ -69,6 +69,7 @@ ON_FILES: list[tuple[str, list[str], int]] = [
     ("compare", ["run.mcap", "run.mcap"], 0),
     ("conformance", [str(ROOT / "conformance/cases")], 0),
     ("convert", [ROBOT, "--to", "harmonic", "--out", "harmonic"], 0),
+    ("dataset", [WORLD, "--robot", ROBOT, "--duration", "1", "--format", "lidar", "--out", "set"], 0),
     ("doctor", [ROBOT], 1),
     ("doctor", ["--self"], 0),
     ("interface list", [], 0),

@@ -10,7 +10,7 @@ use crate::step::{Failed, build_program, root, run, timed};
 const FOLDER: &str = "target/python";
 
 /// Programs that build the wheel and test it.
-const TOOLS: [&str; 19] = [
+const TOOLS: [&str; 21] = [
     "maturin>=1.9,<2",
     "numpy",
     "pytest",
@@ -30,6 +30,9 @@ const TOOLS: [&str; 19] = [
     "ray",
     "mcp>=2,<3",
     "jsonschema>=4,<5",
+    // Readers of the datasets of `periplus dataset`.
+    "pycocotools>=2.0.7,<3",
+    "pykitti>=0.3.1",
 ];
 
 /// Maximum size of the wheel [bytes].

@@ -12,6 +12,7 @@
 //! | read robots and worlds | [`loader`], [`xacro`], [`urdf`], [`sdf`], [`scene`], [`meshes`], [`resources`] |
 //! | build a map | [`slam`], [`scan_matching`], [`exploration`] |
 //! | localize | [`localization`], [`ekf`], [`maps`] |
+//! | track objects | [`tracking`] |
 //! | decide where to drive | [`costmap`], [`planners`], [`controllers`], [`behavior_tree`], [`grid`] |
 //! | nodes, topics, time | [`graph`], [`msgs`], [`tf`], [`tf_ros`], [`nav_nodes`] |
 //! | recordings, scores, calibration | [`bags`], [`evaluation`], [`calibration`] |
@@ -170,6 +171,7 @@ pub use periplus_sim_nodes as sim_nodes;
 pub use periplus_slam as slam;
 pub use periplus_tf as tf;
 pub use periplus_tf_ros as tf_ros;
+pub use periplus_tracking as tracking;
 pub use periplus_urdf as urdf;
 pub use periplus_xacro as xacro;
 pub use periplus_xml as xml;

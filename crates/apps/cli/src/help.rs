@@ -20,7 +20,7 @@ const GROUPS: [(&str, &[&str]); 7] = [
         "Tests and results",
         &["scenario", "sweep", "score", "compare", "rerun", "report", "calibrate"],
     ),
-    ("Robots and worlds", &["check", "look", "convert"]),
+    ("Robots and worlds", &["check", "look", "dataset", "convert"]),
     (
         "ROS and Gazebo",
         &[

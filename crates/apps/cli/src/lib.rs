@@ -10,6 +10,7 @@ mod compare;
 mod conformance;
 mod convert;
 mod costmap;
+mod dataset;
 mod demo;
 mod doctor;
 mod error;
@@ -156,6 +157,7 @@ pub fn run(words: Vec<String>, own_command: Vec<String>, interpreter: Option<Str
         Command::Rerun(options) => rerun::run(&options),
         Command::Score(options) => score::run(&options),
         Command::Conformance(options) => conformance::run(&options),
+        Command::Dataset(options) => dataset::run(&options),
         Command::Demo(options) => demo::run(&options),
         Command::Look(options) => look::run(&options),
         Command::Mcp(options) => mcp::run(&options),

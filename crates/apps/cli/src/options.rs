@@ -11,6 +11,7 @@ use crate::calibrate::CalibrateOptions;
 use crate::compare::RunComparisonOptions;
 use crate::conformance::ConformanceOptions;
 use crate::costmap::serve::CostmapServeOptions;
+use crate::dataset::DatasetOptions;
 use crate::demo::DemoOptions;
 use crate::doctor::DoctorOptions;
 use crate::launch::LaunchOptions;
@@ -72,6 +73,7 @@ pub(crate) enum Command {
     Slam(SlamOptions),
     Localize(LocalizeOptions),
     Look(Box<LookOptions>),
+    Dataset(Box<DatasetOptions>),
     Navigate(Box<NavigateOptions>),
     Scenario(Box<ScenarioOptions>),
     Sweep(Box<SweepOptions>),

@@ -25,7 +25,7 @@ macro_rules! schemas {
 }
 
 /// Schemas by the words of the command, joined by `-`.
-static SCHEMAS: [(&str, &str); 60] = schemas![
+static SCHEMAS: [(&str, &str); 61] = schemas![
     "action-find",
     "action-info",
     "action-list",
@@ -38,6 +38,7 @@ static SCHEMAS: [(&str, &str); 60] = schemas![
     "compare",
     "conformance",
     "convert",
+    "dataset",
     "doctor",
     "interface-list",
     "interface-package",

@@ -4,7 +4,7 @@ pub(crate) mod fleet;
 mod robots;
 
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
@@ -234,6 +234,15 @@ pub(crate) fn run(
     }
 }
 
+/// Reads a velocity script and prints its findings.
+pub(crate) fn read_driver(path: &Path) -> Result<Driver, CliError> {
+    let (driver, findings) = Driver::read(path);
+    let mut err = anstream::stderr().lock();
+    terminal::diagnostics(&mut err, &findings.diagnostics, &findings.sources)?;
+    let has_errors = findings.diagnostics.has_errors();
+    if has_errors { Err(CliError::failed("the script has errors")) } else { Ok(driver) }
+}
+
 /// Parses a number of robots.
 pub(crate) fn robot_count(word: &str) -> Result<usize, String> {
     match word.parse() {
@@ -298,12 +307,7 @@ impl SimOptions {
 
     /// Reads the velocity script and prints its findings.
     fn driver(&self) -> Result<Driver, CliError> {
-        let Some(path) = &self.cmd else { return Ok(Driver::default()) };
-        let (driver, findings) = Driver::read(path);
-        let mut err = anstream::stderr().lock();
-        terminal::diagnostics(&mut err, &findings.diagnostics, &findings.sources)?;
-        let has_errors = findings.diagnostics.has_errors();
-        if has_errors { Err(CliError::failed("the script has errors")) } else { Ok(driver) }
+        self.cmd.as_deref().map_or_else(|| Ok(Driver::default()), read_driver)
     }
 
     fn simulation(&self, arguments: Arguments) -> Options {

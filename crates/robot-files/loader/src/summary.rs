@@ -158,6 +158,14 @@ fn detail(kind: &SensorKind) -> String {
             camera.near_m,
             camera.far_m
         ),
+        SensorKind::Radar(radar) => format!(
+            "{:.0} deg, {} to {} m, cells of {} m and {:.1} deg",
+            radar.horizontal_fov_rad.to_degrees(),
+            radar.range_min_m,
+            radar.range_max_m,
+            radar.range_resolution_m,
+            radar.azimuth_resolution_rad.to_degrees()
+        ),
         SensorKind::Contact { collisions, .. } => format!("on {}", collisions.join(", ")),
         _ => String::new(),
     }

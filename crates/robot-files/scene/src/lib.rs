@@ -49,8 +49,8 @@ pub use periplus_xml::Element;
 pub use physics::Physics;
 pub use plugin::Plugin;
 pub use sensor::{
-    Camera, CameraKind, Distortion, ImuSpec, LidarSpec, NoiseKind, NoiseSpec, ScanAxis, Sensor,
-    SensorKind,
+    Camera, CameraKind, Distortion, ImuSpec, LidarSpec, NoiseKind, NoiseSpec, RadarNoise,
+    RadarSpec, ScanAxis, Sensor, SensorKind,
 };
 pub use shape::{Heightmap, ImageShape, MeshShape, Polyline, Shape};
 pub use surface::{ContactProperties, Friction, SurfaceProperties};

@@ -4,6 +4,7 @@ mod camera;
 mod imu;
 mod lidar;
 mod noise;
+mod radar;
 
 use periplus_diagnostics::Origin;
 use periplus_geometry::Pose;
@@ -14,6 +15,7 @@ pub use camera::{Camera, CameraKind, Distortion};
 pub use imu::ImuSpec;
 pub use lidar::{LidarSpec, ScanAxis};
 pub use noise::{NoiseKind, NoiseSpec};
+pub use radar::{RadarNoise, RadarSpec};
 
 use crate::Plugin;
 
@@ -60,6 +62,8 @@ pub struct Sensor {
 pub enum SensorKind {
     /// Ranges along rays: `ray`, `gpu_ray`, `lidar`, `gpu_lidar`.
     Lidar(Box<LidarSpec>),
+    /// Returns with range, angles and radial velocity.
+    Radar(Box<RadarSpec>),
     /// Images: every type of camera.
     Camera(Box<Camera>),
     /// Angular velocity and linear acceleration.

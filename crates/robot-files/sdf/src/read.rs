@@ -16,6 +16,7 @@ mod overrides;
 mod physics;
 mod plugin;
 mod population;
+mod radar;
 mod root;
 mod sensor;
 pub(crate) mod shape;

@@ -8,6 +8,7 @@ mod link;
 mod material;
 mod model;
 mod out;
+mod radar;
 mod sensor;
 mod shape;
 mod surface;

@@ -8,8 +8,8 @@ use periplus_geometry::{DQuat, DVec3, Pose, Rpy};
 use periplus_scene::{
     Axis, Camera, CameraKind, Collision, Colour, Distortion, Element, FrameRole, ImuSpec, Joint,
     JointKind, LidarSpec, Light, LightKind, Link, Material, MaterialScript, MeshShape, Mimic,
-    Model, NamedFrame, NoiseKind, NoiseSpec, Origin, Plugin, Polyline, ScanAxis, Scene, Sensor,
-    SensorKind, Shape, Spot, SurfaceProperties, Visual,
+    Model, NamedFrame, NoiseKind, NoiseSpec, Origin, Plugin, Polyline, RadarNoise, RadarSpec,
+    ScanAxis, Scene, Sensor, SensorKind, Shape, Spot, SurfaceProperties, Visual,
 };
 use proptest::prelude::*;
 
@@ -233,6 +233,17 @@ fn kinds() -> impl Strategy<Value = (&'static str, SensorKind)> {
             };
             (if old { "ray" } else { "gpu_lidar" }, SensorKind::Lidar(Box::new(lidar)))
         });
+    let radar =
+        (positive(), any::<bool>(), extras().boxed()).prop_map(|(resolution, is_custom, extra)| {
+            let radar = RadarSpec {
+                range_resolution_m: resolution,
+                elevation_resolution_rad: 0.05,
+                noise: RadarNoise { doppler_stddev_m_per_s: resolution, ..RadarNoise::default() },
+                extra,
+                ..RadarSpec::default()
+            };
+            (if is_custom { "custom" } else { "radar" }, SensorKind::Radar(Box::new(radar)))
+        });
     let imu = (three(), three(), any::<bool>(), prop::option::of(words())).prop_map(
         |(angular_velocity, linear_acceleration, enable_orientation, localization)| {
             let extra = Vec::new();
@@ -273,6 +284,7 @@ fn kinds() -> impl Strategy<Value = (&'static str, SensorKind)> {
         camera("boundingbox_camera", CameraKind::BoundingBox),
         multi.boxed(),
         lidar.boxed(),
+        radar.boxed(),
         imu.boxed(),
         navsat.boxed(),
         force_torque.boxed(),

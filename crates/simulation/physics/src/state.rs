@@ -25,6 +25,14 @@ pub struct LinkState {
     pub angular_rad_s: DVec3,
 }
 
+impl LinkState {
+    /// Returns the velocity of a point of the link, given in the world \[m\]: `v + ω × r` [m/s].
+    #[must_use]
+    pub fn velocity_at(&self, point_m: DVec3) -> DVec3 {
+        self.linear_m_s + self.angular_rad_s.cross(point_m - self.world_from_link.translation)
+    }
+}
+
 /// Error of a step with a diverged motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diverged {

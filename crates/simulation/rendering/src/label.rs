@@ -5,7 +5,7 @@ use periplus_scene::Plugin;
 
 /// Returns the label from the plugins of a visual or model (gz-sim's `Label` system), 0 to 255.
 pub(crate) fn label_of(plugins: &[Plugin], diagnostics: &mut Diagnostics) -> Option<u8> {
-    let plugin = plugins.iter().find(|plugin| is_label(plugin))?;
+    let plugin = plugins.iter().find(|plugin| is_label_plugin(plugin))?;
     let text = plugin.value("label");
     let label = text.as_deref().and_then(|text| text.trim().parse().ok());
     if label.is_none() {
@@ -20,6 +20,7 @@ pub(crate) fn label_of(plugins: &[Plugin], diagnostics: &mut Diagnostics) -> Opt
 }
 
 /// Returns true for `gz-sim-label-system` and its older names.
-fn is_label(plugin: &Plugin) -> bool {
+#[must_use]
+pub fn is_label_plugin(plugin: &Plugin) -> bool {
     plugin.filename.contains("label-system") || plugin.name.ends_with("::systems::Label")
 }

@@ -186,6 +186,22 @@ impl Lens {
         Some(PinholeSlopes { focal_px, middle })
     }
 
+    /// Returns the image of a point in front of the camera \[m\], from the upper left corner of the image \[px\]; `None`
+    /// for lenses that are not a pinhole.
+    #[must_use]
+    pub fn project(&self, point_in_camera_m: DVec3) -> Option<[f64; 2]> {
+        let slopes = self.slopes()?;
+        let DVec3 { x, y, z } = point_in_camera_m;
+        let [middle_x, middle_y] = slopes.middle;
+        Some([middle_x - slopes.focal_px * y / x, middle_y - slopes.focal_px * z / x])
+    }
+
+    /// Returns the focal length \[px\] and the principal point \[px\] of a pinhole; `None` for other lenses.
+    #[must_use]
+    pub fn pinhole_px(&self) -> Option<(f64, [f64; 2])> {
+        self.slopes().map(|slopes| (slopes.focal_px, slopes.middle))
+    }
+
     /// Returns the direction of a pixel's centre in the frame of the camera, of any length. For a
     /// pinhole the x component is 1, so that distances in multiples of it are depths.
     #[must_use]

@@ -34,6 +34,7 @@ mod lens;
 mod light;
 mod links;
 mod mesh;
+mod objects;
 mod outline;
 mod phong;
 mod render_scene;
@@ -41,8 +42,12 @@ mod render_scene;
 pub use assets::{AssetLoader, NoAssets};
 pub use heightmap::{HeightmapError, HeightmapSamples, sample_heightmap};
 pub use images::{ImageOutputs, RenderRequest, RenderedImages};
+pub use label::is_label_plugin;
 pub use lens::{Lens, LensError};
 pub use mesh::{SelectedMesh, select_submesh};
+pub use objects::{
+    DetectedObject, LabelledObject, ObjectLabel, PixelBox, PixelRegion, box_corners,
+};
 pub use periplus_images::{BadImage, Grey, Image};
 pub use render_scene::{
     AddedModel, HitSurface, ModelGroup, PartId, RenderModelId, RenderScene, SHADOW_MASK,

@@ -14,6 +14,7 @@ mod logical;
 mod mount;
 mod navsat;
 mod port;
+mod radar;
 mod sensor_context;
 mod sonar;
 mod timer;

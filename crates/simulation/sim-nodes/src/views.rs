@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use periplus_diagnostics::Diagnostics;
-use periplus_geometry::Pose;
-use periplus_physics::{LinkId, ModelId, PhysicsWorld};
+use periplus_geometry::{DVec3, Pose};
+use periplus_physics::{LinkId, LinkState, ModelId, PhysicsWorld};
 use periplus_rendering::{AssetLoader, PartId, RenderScene, SensedGeometry};
 use periplus_scene as scene;
 
@@ -32,6 +32,10 @@ struct Figure {
     model: Arc<scene::Model>,
     /// Pose of each link.
     world_from_links: Vec<Pose>,
+    /// Poses before the last change.
+    world_from_links_before: Vec<Pose>,
+    /// Times of the poses, and of those before the last change \[ns\].
+    times_ns: [i64; 2],
 }
 
 /// Saved models and lights of [`Views`]; they are shared, not copied.
@@ -137,13 +141,30 @@ impl Views {
             view.add_figure(&model, &*self.shapes, &mut self.findings);
         }
         let links = model.links.iter().map(|link| model.parent_from_model * link.model_from_link);
-        self.figures.push(Figure { world_from_links: links.collect(), model });
+        let world_from_links: Vec<Pose> = links.collect();
+        let world_from_links_before = world_from_links.clone();
+        self.figures.push(Figure {
+            model,
+            world_from_links,
+            world_from_links_before,
+            times_ns: [0, 0],
+        });
         FigureId(self.figures.len() - 1)
     }
 
-    /// Sets the poses of the links of a figure, in their order in the model.
-    pub fn set_figure(&mut self, figure: FigureId, world_from_links: &[Pose]) {
-        self.figures[figure.0].world_from_links.copy_from_slice(world_from_links);
+    /// Sets the poses of the links of a figure at a time \[ns\], in their order in the model.
+    pub fn set_figure(&mut self, figure: FigureId, time_ns: i64, world_from_links: &[Pose]) {
+        let figure = &mut self.figures[figure.0];
+        let [last_ns, _] = figure.times_ns;
+        if time_ns > last_ns {
+            figure.world_from_links_before.copy_from_slice(&figure.world_from_links);
+            figure.times_ns = [time_ns, last_ns];
+        } else {
+            // The start, or a jump back: there is no motion before it.
+            figure.world_from_links_before.copy_from_slice(world_from_links);
+            figure.times_ns = [time_ns, time_ns];
+        }
+        figure.world_from_links.copy_from_slice(world_from_links);
         self.invalidate();
     }
 
@@ -233,9 +254,59 @@ impl Views {
         links.iter().find(|(known, _)| *known == link).map(|(_, part)| *part)
     }
 
+    /// Returns the motions of the parts of a scene in use: those of links, and for figures the mean velocities since the
+    /// last step.
+    pub fn part_motions(
+        &self,
+        geometry: SensedGeometry,
+        world: &PhysicsWorld,
+    ) -> impl Iterator<Item = (PartId, LinkState)> {
+        let view = match geometry {
+            SensedGeometry::Collision => &self.collision,
+            SensedGeometry::Visual => &self.visual,
+        };
+        let of_links = |view: &SceneView| {
+            let links = view.links.iter();
+            links.filter_map(|(link, part)| Some((*part, world.link_state(*link)?))).collect()
+        };
+        let of_figures = |view: &SceneView| {
+            let motions = |(parts, figure): (&Vec<PartId>, &Figure)| {
+                let links = parts.iter().enumerate();
+                links.map(|(link, part)| (*part, figure.motion(link))).collect::<Vec<_>>()
+            };
+            view.figures.iter().zip(&self.figures).flat_map(motions).collect()
+        };
+        let links: Vec<_> = view.as_ref().map(of_links).unwrap_or_default();
+        let figures: Vec<_> = view.as_ref().map(of_figures).unwrap_or_default();
+        links.into_iter().chain(figures)
+    }
+
     /// Returns and clears the problems of shapes found since the last call.
     pub fn take_findings(&mut self) -> Diagnostics {
         std::mem::take(&mut self.findings)
+    }
+}
+
+impl Figure {
+    /// Returns the pose of a link, and its mean velocity since the last step.
+    fn motion(&self, link: usize) -> LinkState {
+        let (now, before) = (self.world_from_links[link], self.world_from_links_before[link]);
+        let [time_ns, before_ns] = self.times_ns;
+        if time_ns <= before_ns {
+            let (linear_m_s, angular_rad_s) = (DVec3::ZERO, DVec3::ZERO);
+            return LinkState { world_from_link: now, linear_m_s, angular_rad_s };
+        }
+        #[expect(clippy::cast_precision_loss, reason = "a step is far below 2^53 ns")]
+        let dt_s = (time_ns - before_ns) as f64 * 1e-9;
+        let turn = now.rotation * before.rotation.conjugate();
+        let turn = if turn.w < 0.0 { -turn } else { turn };
+        let axis = DVec3::new(turn.x, turn.y, turn.z);
+        let angle_rad = 2.0 * libm::atan2(axis.length(), turn.w);
+        LinkState {
+            world_from_link: now,
+            linear_m_s: (now.translation - before.translation) / dt_s,
+            angular_rad_s: axis.normalize_or_zero() * (angle_rad / dt_s),
+        }
     }
 }
 

@@ -8,6 +8,7 @@ use std::sync::Arc;
 use periplus_crowds::{ActorMotion, ActorScript};
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_geometry::Pose;
+use periplus_rendering::is_label_plugin;
 use periplus_scene::{Actor, Model};
 use periplus_sim_nodes::{FigureId, Views};
 
@@ -45,6 +46,8 @@ impl RunningActor {
             model.links = figure_links(&actor.name);
         }
         model.links.extend(actor.links.iter().cloned());
+        // The label of the actor is that of its figure.
+        model.plugins = actor.plugins.iter().filter(|it| is_label_plugin(it)).cloned().collect();
         let start = script
             .motion_at(0.0)
             .map_or(actor.world_from_actor, |motion| motion.pose * actor.world_from_actor);
@@ -90,7 +93,7 @@ impl RunningActor {
             poses.extend(figure_poses(world_from_soles, motion.walked_m, motion.speed_m_per_s));
         }
         poses.extend(self.actor_from_links.iter().map(|link| motion.pose * *link));
-        views.set_figure(self.figure, &poses);
+        views.set_figure(self.figure, time_ns, &poses);
     }
 }
 
@@ -107,7 +110,7 @@ fn report(actor: &Actor, findings: &mut Diagnostics) {
             .note("skins and their animations are not rendered; the legs swing with the walked distance"),
         );
     }
-    for plugin in &actor.plugins {
+    for plugin in actor.plugins.iter().filter(|plugin| !is_label_plugin(plugin)) {
         findings.push(
             Diagnostic::warning(
                 "actor-plugin-ignored",

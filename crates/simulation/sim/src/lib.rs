@@ -36,6 +36,7 @@ mod files;
 mod fleet_score;
 mod footprint;
 mod free_floor;
+mod ground_truth;
 mod map_drawing;
 mod optics;
 mod pace;
@@ -59,12 +60,18 @@ pub use drive_score::{DriveCollision, DriveScore};
 pub use files::AssetFiles;
 pub use fleet_score::{FleetMember, FleetScore};
 pub use free_floor::{reachable_cells, spread_poses};
+pub use ground_truth::{
+    CameraFrame, LabelledPoint, LabellingCamera, LabellingError, LabellingLidar, LidarFrame,
+};
 pub use map_drawing::{MapDrawing, MapDrawingError};
 pub use optics::{OpticalRange, OpticalSurface};
 pub use pace::RealTimePacer;
 pub use periplus_physics::limits::STEP_RANGE_S;
 pub use periplus_physics::{Diverged, PhysicsMode};
-pub use periplus_rendering::{LensError, SensedGeometry};
+pub use periplus_rendering::{
+    DetectedObject, LabelledObject, LensError, ObjectLabel, PixelBox, PixelRegion, RenderedImages,
+    SensedGeometry, box_corners,
+};
 pub use periplus_sensors::Quirks;
 pub use photo::{BoundingBox, Photo, PhotoRequest};
 pub use profile::{Work, WorkProfile};

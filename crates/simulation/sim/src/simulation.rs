@@ -207,6 +207,11 @@ impl Simulation {
         self.options.threads
     }
 
+    /// Seed of all noise.
+    pub(crate) fn seed(&self) -> u64 {
+        self.options.seed
+    }
+
     /// Returns the graph with all nodes and topics.
     #[must_use]
     pub fn graph(&self) -> &Graph {

@@ -95,6 +95,11 @@ pub(super) const EXAMPLES: &[(&str, &[Example])] = &[
         ("periplus look house.sdf --view top -o house.png", "A world from above"),
         ("periplus look house.sdf --robot robot.urdf --topic /scan --time 1 -o scan.png", "A scan of the robot's lidar"),
     ]),
+    ("dataset", &[
+        ("periplus dataset street.sdf --robot robot.urdf --duration 10 --format coco -o set", "Images with boxes and masks"),
+        ("periplus dataset street.sdf --robot robot.urdf --cmd drive.yaml --duration 60 --rate 10 --format lidar -o set", "A drive by a script, with a label for each lidar point"),
+        ("periplus dataset street.sdf --robot robot.urdf --duration 10 --format kitti --class 1=Car -o set", "In the layout of KITTI, with a name for label 1"),
+    ]),
     ("man", &[
         ("periplus man ~/.local/share/man/man1", "A manual page for every command"),
     ]),

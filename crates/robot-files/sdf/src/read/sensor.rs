@@ -5,13 +5,14 @@ use periplus_scene::{NoiseSpec, Sensor, SensorKind};
 use periplus_xml::Element;
 
 use super::plugin::plugins;
+use super::radar::{CUSTOM_TYPE_ATTRIBUTES, RADAR_ELEMENTS, read_radar};
 use super::{camera, lidar, noise};
 use crate::fields::Fields;
 use crate::pose::{PosedElement, Reference};
 use crate::verbatim::keep;
 
 /// Sensor types, and the elements that hold their settings.
-const TYPES: [(&str, &[&str]); 35] = [
+const TYPES: [(&str, &[&str]); 36] = [
     ("air_pressure", &["air_pressure"]),
     ("air_speed", &["air_speed"]),
     ("altimeter", &["altimeter"]),
@@ -33,6 +34,7 @@ const TYPES: [(&str, &[&str]); 35] = [
     ("magnetometer", &["magnetometer"]),
     ("multicamera", &["camera"]),
     ("navsat", &["navsat", "gps"]),
+    ("radar", &RADAR_ELEMENTS),
     ("ray", &["ray", "lidar"]),
     ("rfid", &["rfid"]),
     ("rfidtag", &["rfidtag"]),
@@ -102,7 +104,13 @@ pub fn read_sensor(element: &Element, diagnostics: &mut Diagnostics) -> PosedSen
         );
     }
     let mut cameras_relative_to = Vec::new();
-    let settings = known.map_or(&[][..], |(_, elements)| elements);
+    let mut settings = known.map_or(&[][..], |(_, elements)| elements);
+    let custom_type = CUSTOM_TYPE_ATTRIBUTES.iter().find_map(|name| fields.attribute(name));
+    let is_radar = sensor.type_name == "radar"
+        || sensor.type_name == "custom" && custom_type.is_some_and(|it| it.value == "radar");
+    if is_radar {
+        settings = &RADAR_ELEMENTS;
+    }
     read_kind(&mut sensor, settings, &mut fields, &mut cameras_relative_to);
     fields.verbatim(&[
         "frame",
@@ -119,6 +127,7 @@ pub fn read_sensor(element: &Element, diagnostics: &mut Diagnostics) -> PosedSen
         "logical_camera",
         "magnetometer",
         "navsat",
+        "radar",
         "ray",
         "rfid",
         "rfidtag",
@@ -158,6 +167,10 @@ fn read_kind(
         None => &placeholder,
     };
     let mut inner = Fields::new(element, fields.diagnostics);
+    if *settings == RADAR_ELEMENTS {
+        sensor.kind = SensorKind::Radar(Box::new(read_radar(inner)));
+        return;
+    }
     let kind = match &*sensor.type_name {
         "ray" | "gpu_ray" | "lidar" | "gpu_lidar" => {
             if present.is_none() {

@@ -7,11 +7,15 @@ use periplus_scene::{
 use periplus_xml::Element;
 
 use super::out::{Out, numbers};
+use super::radar::write_radar;
 use super::write_plugin;
 
 pub(super) fn write_sensor(sensor: &Sensor) -> Element {
     let mut out = Out::named("sensor", &sensor.name);
     out.attribute("type", &sensor.type_name);
+    if matches!(sensor.kind, SensorKind::Radar(_)) && sensor.type_name == "custom" {
+        out.attribute("gz:type", "radar");
+    }
     out.pose(sensor.parent_from_sensor);
     out.number("update_rate", sensor.update_rate_hz, 0.0);
     out.flag("always_on", sensor.always_on, false);
@@ -37,6 +41,10 @@ fn write_kind(sensor: &Sensor, out: &mut Out) {
     match &sensor.kind {
         SensorKind::Lidar(lidar) => {
             out.push(write_lidar(lidar, if old { "ray" } else { "lidar" }));
+        }
+        SensorKind::Radar(radar) => {
+            let is_custom = sensor.type_name == "custom";
+            out.push(write_radar(radar, if is_custom { "gz:radar" } else { "radar" }));
         }
         SensorKind::Camera(camera) => {
             out.push(write_camera(camera));

@@ -2,13 +2,15 @@
 
 use periplus_geometry::{DVec3, Pose};
 use periplus_images::Image;
-use periplus_raycast::{Hit, InstanceId};
+use periplus_raycast::{Hit, InstanceId, RaycastWorld, Tags};
 use periplus_scene::{Light, World};
 
+use super::rebuild::put;
 use super::{PartId, RenderScene};
 use crate::body::RenderBody;
 use crate::light::{LightSource, WorldLight};
 use crate::mesh::SelectedMesh;
+use crate::objects::ObjectLabel;
 use crate::phong::{PhongMaterial, rgb};
 
 /// Ambient light and background colour.
@@ -44,6 +46,16 @@ pub(crate) struct HitMaterial<'a> {
     pub(crate) material: &'a PhongMaterial,
     /// True if [`RenderScene::detail`] adds nothing.
     pub(crate) is_plain: bool,
+}
+
+/// Shape of an object with a label.
+pub(crate) struct LabelledShape<'a> {
+    pub(crate) label: ObjectLabel,
+    pub(crate) model: &'a str,
+    pub(crate) world_from_link: Pose,
+    pub(crate) world_from_body: Pose,
+    pub(crate) body: &'a RenderBody,
+    tags: Tags,
 }
 
 impl RenderScene {
@@ -102,6 +114,33 @@ impl RenderScene {
     /// Returns class and instance number of a hit.
     pub(crate) fn label_of(&self, instance: InstanceId) -> Option<(u8, u16)> {
         self.record(instance).label.map(|label| (label.class, label.number))
+    }
+
+    /// Returns all shapes with a label other than the background.
+    pub(crate) fn labelled_shapes(&self) -> impl Iterator<Item = LabelledShape<'_>> {
+        self.shape_records.iter().filter_map(|record| {
+            let label = record.label.filter(|label| label.class != 0)?;
+            let part = &self.parts[record.part as usize];
+            Some(LabelledShape {
+                label: ObjectLabel { class: label.class, instance: label.number },
+                model: &self.models[part.model as usize].name,
+                world_from_link: part.world_from_link,
+                world_from_body: part.world_from_link * record.link_from_body,
+                body: record.body.as_ref()?,
+                tags: record.tags,
+            })
+        })
+    }
+
+    /// Returns the shapes of one object as a ray-cast world; `None` if it has none that can be cast.
+    pub(crate) fn rays_of(&self, label: ObjectLabel) -> Option<RaycastWorld> {
+        let mut builder = RaycastWorld::builder();
+        for shape in self.labelled_shapes().filter(|shape| shape.label == label) {
+            // Problems of shapes were reported when the scene was built.
+            put(&mut builder, shape.body, false, &shape.world_from_body, shape.tags, self.threads)
+                .ok()?;
+        }
+        builder.build(self.threads).ok()
     }
 
     /// Returns the shading normal, and the colour factor of the texture with the total opacity.

@@ -5,7 +5,9 @@ use periplus_graph::GraphError;
 use periplus_scene::{Sensor, SensorKind};
 
 use super::port::{SensorPort, ports};
-use super::{Mount, SensorContext, camera, contact, environment, imu, logical, navsat, sonar};
+use super::{
+    Mount, SensorContext, camera, contact, environment, imu, logical, navsat, radar, sonar,
+};
 use crate::Device;
 
 /// Inputs for building a sensor's device.
@@ -84,6 +86,7 @@ fn build_by_kind(
         SensorKind::Contact { .. } => contact::device(context, diagnostics),
         SensorKind::Sonar { .. } => sonar::device(context),
         SensorKind::LogicalCamera { .. } => logical::device(context),
+        SensorKind::Radar(spec) => radar::device(context, spec),
         SensorKind::Camera(spec) => camera::device(context, spec, diagnostics),
         SensorKind::Lidar(_) | SensorKind::ForceTorque { .. } | SensorKind::Other => {
             Err(SensorBuildError::unsupported(sensor))

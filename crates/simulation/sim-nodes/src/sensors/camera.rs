@@ -1,5 +1,6 @@
 //! Cameras: images, depth images, point clouds, labels, and camera info.
 
+mod boxes;
 mod info;
 mod outputs;
 mod pixels;
@@ -10,11 +11,12 @@ use periplus_geometry::Pose;
 use periplus_graph::{Mailbox, Qos, Sample};
 use periplus_msgs::std_msgs::{Bool, Empty};
 use periplus_rendering::{
-    ImageOutputs, Lens, LensError, RenderRequest, RenderedImages, SensedGeometry,
+    ImageOutputs, Lens, LensError, RenderRequest, RenderScene, RenderedImages, SensedGeometry,
 };
 use periplus_scene::{Camera, CameraKind};
 use periplus_sensors::{ImageNoise, Pinhole, Streams};
 
+use self::boxes::{BoxKind, Detections};
 use self::outputs::{CameraOutput, outputs};
 use super::port::Convention;
 use super::{DeviceResult, Mount, SensorBuildContext, SensorBuildError, Timer};
@@ -90,7 +92,7 @@ pub(super) fn device(
     spec: &Camera,
     diagnostics: &mut Diagnostics,
 ) -> DeviceResult {
-    if matches!(spec.kind, CameraKind::Thermal | CameraKind::BoundingBox) {
+    if spec.kind == CameraKind::Thermal {
         return Err(SensorBuildError::unsupported(context.sensor_context.sensor));
     }
     let several = spec.kind == CameraKind::Multi;
@@ -253,6 +255,7 @@ impl CameraDevice {
         let threads = moment.threads;
         for unit in &mut self.units {
             let outputs = unit.outputs();
+            let mut detections = None;
             if outputs != ImageOutputs::default() {
                 let shot = RenderRequest {
                     lens: &unit.lens,
@@ -264,11 +267,13 @@ impl CameraDevice {
                     outputs,
                     threads,
                 };
-                moment.seen(SensedGeometry::Visual).render(&shot, &mut unit.picture);
+                let scene = moment.seen(SensedGeometry::Visual);
+                scene.render(&shot, &mut unit.picture);
+                detections = unit.detections(scene, &shot);
                 unit.spoil(&mut unit.streams.tick(tick));
             }
             for out in &unit.outputs {
-                out.publish(&unit.picture, &unit.pinhole, time_ns);
+                out.publish(&unit.picture, detections.as_ref(), &unit.pinhole, time_ns);
             }
         }
     }
@@ -288,6 +293,17 @@ impl CameraUnit {
                 }
             },
         )
+    }
+
+    /// Returns the objects in the rendered image, if there is a subscriber for their boxes.
+    fn detections(&self, scene: &RenderScene, shot: &RenderRequest<'_>) -> Option<Detections> {
+        let mut kinds = self.outputs.iter().filter_map(CameraOutput::boxes).peekable();
+        kinds.peek()?;
+        let full = kinds.any(|kind| kind == BoxKind::Full);
+        Some(Detections {
+            objects: scene.detected_objects(shot, &self.picture, full),
+            camera_from_world: shot.world_from_camera.inverse(),
+        })
     }
 
     fn spoil(&mut self, stream: &mut periplus_geometry::Stream) {

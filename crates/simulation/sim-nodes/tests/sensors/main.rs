@@ -2,6 +2,8 @@
 #![allow(missing_docs, clippy::unwrap_used, reason = "tests")]
 
 mod bench;
+mod boxes;
+mod radar;
 
 use bench::Bench;
 use periplus_msgs::gazebo_msgs::ContactsState;

@@ -7,12 +7,14 @@ use periplus_geometry::{Pose, Rpy};
 use periplus_graph::{GraphError, Publisher, Qos, valid_topic_name};
 use periplus_msgs::sensor_msgs::{CameraInfo, Image, PointCloud2};
 use periplus_msgs::std_msgs::Header;
+use periplus_msgs::vision_msgs::{Detection2DArray, Detection3DArray};
 use periplus_rendering::{ImageOutputs, RenderedImages};
 use periplus_scene::{Camera, CameraKind};
 use periplus_sensors::{CameraCalibration, Pinhole};
 
-use super::super::SensorContext;
 use super::super::port::{Convention, SensorPort};
+use super::super::{SensorBuildError, SensorContext};
+use super::boxes::{BoxKind, Detections};
 use super::info::{calibration, message};
 use super::pixels::{Encoding, colour_image, depth_image, label_image, millimetre_image};
 use super::points::{Cloud, cloud};
@@ -31,6 +33,8 @@ enum OutputKind {
     ColouredLabels(Publisher<Image>),
     Labels(Publisher<Image>),
     Info(Publisher<CameraInfo>, Box<CameraCalibration>),
+    Boxes(Publisher<Detection2DArray>, BoxKind),
+    OrientedBoxes(Publisher<Detection3DArray>),
 }
 
 impl CameraOutput {
@@ -43,6 +47,17 @@ impl CameraOutput {
             | OutputKind::Labels(out) => out.is_heard(),
             OutputKind::Points(out, _) => out.is_heard(),
             OutputKind::Info(out, _) => out.is_heard(),
+            OutputKind::Boxes(out, _) => out.is_heard(),
+            OutputKind::OrientedBoxes(out) => out.is_heard(),
+        }
+    }
+
+    /// Returns the boxes that a subscriber needs.
+    pub(super) fn boxes(&self) -> Option<BoxKind> {
+        match &self.to {
+            OutputKind::Boxes(out, kind) => out.is_heard().then_some(*kind),
+            OutputKind::OrientedBoxes(out) => out.is_heard().then_some(BoxKind::Oriented),
+            _ => None,
         }
     }
 
@@ -55,7 +70,10 @@ impl CameraOutput {
             OutputKind::Points(..) => {
                 ImageOutputs { colour: true, depth: true, ..ImageOutputs::default() }
             }
-            OutputKind::ColouredLabels(_) | OutputKind::Labels(_) => {
+            OutputKind::ColouredLabels(_)
+            | OutputKind::Labels(_)
+            | OutputKind::Boxes(..)
+            | OutputKind::OrientedBoxes(_) => {
                 ImageOutputs { labels: true, ..ImageOutputs::default() }
             }
             OutputKind::Info(..) => ImageOutputs::default(),
@@ -76,7 +94,13 @@ impl CameraOutput {
         Some((out.topic().to_owned(), self.frame.clone(), camera_from_points))
     }
 
-    pub(super) fn publish(&self, picture: &RenderedImages, pinhole: &Pinhole, time_ns: i64) {
+    pub(super) fn publish(
+        &self,
+        picture: &RenderedImages,
+        detections: Option<&Detections>,
+        pinhole: &Pinhole,
+        time_ns: i64,
+    ) {
         if !self.has_subscribers() {
             return;
         }
@@ -92,6 +116,16 @@ impl CameraOutput {
             }
             OutputKind::ColouredLabels(out) => out.publish(label_image(header, picture, true)),
             OutputKind::Labels(out) => out.publish(label_image(header, picture, false)),
+            OutputKind::Boxes(out, kind) => {
+                if let Some(found) = detections {
+                    out.publish(found.boxes_2d(&header, *kind));
+                }
+            }
+            OutputKind::OrientedBoxes(out) => {
+                if let Some(found) = detections {
+                    out.publish(found.boxes_3d(&header));
+                }
+            }
             OutputKind::Info(out, calibration) => {
                 out.publish(message(header, pinhole, calibration));
             }
@@ -119,11 +153,11 @@ pub(super) fn outputs(
     pinhole: &Pinhole,
     name: Option<&str>,
     diagnostics: &mut Diagnostics,
-) -> Result<Vec<CameraOutput>, GraphError> {
+) -> Result<Vec<CameraOutput>, SensorBuildError> {
     match port.convention {
         Convention::Gz => today(sensor_context, port, camera, pinhole),
         Convention::Ros1 | Convention::Ros2 => {
-            classic(sensor_context, port, camera, pinhole, name, diagnostics)
+            Ok(classic(sensor_context, port, camera, pinhole, name, diagnostics)?)
         }
     }
 }
@@ -134,7 +168,7 @@ fn today(
     port: &SensorPort,
     camera: &Camera,
     pinhole: &Pinhole,
-) -> Result<Vec<CameraOutput>, GraphError> {
+) -> Result<Vec<CameraOutput>, SensorBuildError> {
     let optical = camera.optical_frame_id.clone().unwrap_or_else(|| port.frame.clone());
     let image = |to| CameraOutput { frame: optical.clone(), to };
     let cloud = |to| CameraOutput { frame: port.frame.clone(), to };
@@ -175,6 +209,23 @@ fn today(
                 image(OutputKind::ColouredLabels(port.publisher(&format!("{topic}/colored_map"))?)),
                 image(OutputKind::Labels(port.publisher(&format!("{topic}/labels_map"))?)),
                 info(&format!("{topic}/colored_map"))?,
+            ]
+        }
+        CameraKind::BoundingBox => {
+            let topic = sensor_context.gz_topic("/boundingbox");
+            let kind = BoxKind::of(camera)?;
+            let boxes = match kind {
+                BoxKind::Oriented => OutputKind::OrientedBoxes(port.publisher(&topic)?),
+                BoxKind::Visible | BoxKind::Full => {
+                    OutputKind::Boxes(port.publisher(&topic)?, kind)
+                }
+            };
+            let images = port.publisher(&format!("{topic}_image"))?;
+            vec![
+                // Positions of boxes are along the axes of the camera: x forward.
+                cloud(boxes),
+                image(OutputKind::Colour(images, encoding)),
+                info(&topic)?,
             ]
         }
         _ => {
