@@ -97,7 +97,7 @@ fn an_actor_has_a_radial_velocity() {
         simulation.step().unwrap();
     }
     let before_m = position_m(&simulation);
-    scans.drain();
+    let _ = scans.drain();
     // The next scan is that of 4.05 s.
     let scan = loop {
         match scans.latest() {

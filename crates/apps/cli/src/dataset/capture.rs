@@ -113,7 +113,7 @@ impl<'a> Capture<'a> {
         match (&mut self.writer, &image, &cloud) {
             (Writer::Coco(writer), Some(image), _) => writer.add(number, image)?,
             (Writer::Kitti(writer), Some(image), Some(cloud)) => {
-                writer.add(number, image, cloud)?
+                writer.add(number, image, cloud)?;
             }
             (Writer::Lidar(writer), _, Some(cloud)) => writer.add(number, time_s, cloud)?,
             // The sensors of each format were built with its writer.

@@ -27,7 +27,7 @@ pub struct RadarSpec {
     pub doppler_resolution_m_per_s: f64,
     /// Maximum unambiguous radial velocity [m/s]; velocities beyond it wrap around.
     pub doppler_max_m_per_s: f64,
-    /// Smallest radar cross-section that is detected at the maximum range [m²].
+    /// Smallest radar cross-section that is detected at the maximum range \[m²\].
     pub min_cross_section_m2: f64,
     /// Standard deviations of a return.
     pub noise: RadarNoise,
@@ -45,9 +45,9 @@ pub struct RadarNoise {
     pub azimuth_stddev_rad: f64,
     /// Elevation [rad].
     pub elevation_stddev_rad: f64,
-    /// Radial velocity [m/s].
+    /// Radial velocity \[m/s\].
     pub doppler_stddev_m_per_s: f64,
-    /// Amplitude [dB].
+    /// Amplitude \[dB\].
     pub amplitude_stddev_db: f64,
 }
 

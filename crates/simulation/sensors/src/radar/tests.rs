@@ -144,7 +144,7 @@ fn impossible_radars_are_rejected() {
         RadarSpec { vertical_fov_rad: 4.0, ..spec.clone() },
         RadarSpec { azimuth_resolution_rad: 0.0, ..spec.clone() },
         RadarSpec { azimuth_resolution_rad: 1e-5, ..spec.clone() },
-        RadarSpec { doppler_resolution_m_per_s: f64::NAN, ..spec.clone() },
+        RadarSpec { doppler_resolution_m_per_s: f64::NAN, ..spec },
     ] {
         assert!(RadarSensor::new(&wrong).is_err(), "{wrong:?}");
     }

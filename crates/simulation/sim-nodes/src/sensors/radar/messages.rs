@@ -8,7 +8,7 @@ use periplus_sensors::{RadarDetection, Streams};
 use periplus_tracking::{RadarPoint, TrackClass, TrackedObject, TrackerSettings};
 
 /// Indices of the upper triangle of a matrix of three rows, row by row.
-const UPPER_TRIANGLE: [[usize; 2]; 6] = [[0, 0], [0, 1], [0, 2], [1, 1], [1, 2], [2, 2]];
+const UPPER_TRIANGLE_INDEX: [[usize; 2]; 6] = [[0, 0], [0, 1], [0, 2], [1, 1], [1, 2], [2, 2]];
 
 pub(super) fn return_of(detection: &RadarDetection) -> RadarReturn {
     RadarReturn {
@@ -37,7 +37,7 @@ pub(super) fn track_of(track: &TrackedObject, streams: &Streams) -> RadarTrack {
     let (position, velocity) = (filter.position_covariance_m2(), filter.velocity_covariance());
     let acceleration = TrackerSettings::default().acceleration_stddev_m_per_s2;
     let diagonal = |variance: f64| {
-        UPPER_TRIANGLE.map(|[row, column]| if row == column { single(variance) } else { 0.0 })
+        UPPER_TRIANGLE_INDEX.map(|[row, column]| if row == column { single(variance) } else { 0.0 })
     };
     RadarTrack {
         uuid: uuid_of(track.id(), streams),
@@ -50,11 +50,13 @@ pub(super) fn track_of(track: &TrackedObject, streams: &Streams) -> RadarTrack {
             TrackClass::Static => RadarTrack::STATIC,
             TrackClass::Dynamic => RadarTrack::DYNAMIC,
         },
-        position_covariance: UPPER_TRIANGLE.map(|[row, column]| single(position[(row, column)])),
-        velocity_covariance: UPPER_TRIANGLE.map(|[row, column]| single(velocity[(row, column)])),
+        position_covariance: UPPER_TRIANGLE_INDEX
+            .map(|[row, column]| single(position[(row, column)])),
+        velocity_covariance: UPPER_TRIANGLE_INDEX
+            .map(|[row, column]| single(velocity[(row, column)])),
         acceleration_covariance: diagonal(acceleration * acceleration),
         // A size is known to a sixth of itself along each axis.
-        size_covariance: UPPER_TRIANGLE.map(|[row, column]| {
+        size_covariance: UPPER_TRIANGLE_INDEX.map(|[row, column]| {
             let part_m = track.size_m()[row] / 6.0;
             if row == column { single(part_m * part_m) } else { 0.0 }
         }),
