@@ -1,7 +1,7 @@
 //! Queue of events in the order of execution.
 
 use std::cmp::Ordering;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 
 /// Order of events of one node at the same time: events from other nodes come first.
@@ -72,7 +72,37 @@ pub(crate) struct EventQueue {
 #[derive(Default)]
 struct State {
     events: BTreeMap<Key, Arc<dyn Event>>,
+    /// Times of the timers \[ns\], by node and ordinal.
+    timers: HashMap<(Arc<str>, u64), i64>,
     is_closed: bool,
+}
+
+impl State {
+    fn insert(&mut self, key: Key, event: Arc<dyn Event>) {
+        if key.rank == Rank::Timer {
+            self.timers.insert((key.node.clone(), key.ordinal), key.time_ns);
+        }
+        self.events.insert(key, event);
+    }
+
+    /// An event is no longer in the queue.
+    fn forget(&mut self, key: &Key) {
+        if key.rank == Rank::Timer {
+            self.timers.remove(&(key.node.clone(), key.ordinal));
+        }
+    }
+
+    fn pop_first(&mut self) -> Option<(Key, Arc<dyn Event>)> {
+        let (key, event) = self.events.pop_first()?;
+        self.forget(&key);
+        Some((key, event))
+    }
+
+    fn remove(&mut self, key: &Key) -> Option<(Key, Arc<dyn Event>)> {
+        let (key, event) = self.events.remove_entry(key)?;
+        self.forget(&key);
+        Some((key, event))
+    }
 }
 
 impl EventQueue {
@@ -83,22 +113,22 @@ impl EventQueue {
     pub(crate) fn add(&self, key: Key, event: Arc<dyn Event>) {
         let mut state = self.lock();
         if !state.is_closed {
-            state.events.insert(key, event);
+            state.insert(key, event);
         }
         drop(state);
         self.changed.notify_one();
     }
 
     pub(crate) fn remove(&self, key: &Key) {
-        let removed = self.lock().events.remove(key);
+        let removed = self.lock().remove(key);
         drop(removed);
     }
 
     /// Removes and returns the first event that is due.
     pub(crate) fn next_due(&self, now_ns: i64) -> Option<(Key, Arc<dyn Event>)> {
         let mut state = self.lock();
-        let first = state.events.first_entry()?;
-        (first.key().time_ns <= now_ns).then(|| first.remove_entry())
+        let (first, _) = state.events.first_key_value()?;
+        if first.time_ns <= now_ns { state.pop_first() } else { None }
     }
 
     /// Waits for the next event that is due (live mode); none when the queue is closed. Messages
@@ -113,7 +143,7 @@ impl EventQueue {
             let now_ns = now_ns();
             let is_due = |key: &&Key| key.time_ns <= now_ns || key.rank != Rank::Timer;
             if let Some(key) = state.events.keys().find(is_due).cloned() {
-                return state.events.remove_entry(&key);
+                return state.remove(&key);
             }
             state = self.changed.wait(state).unwrap_or_else(PoisonError::into_inner);
         }
@@ -138,18 +168,25 @@ impl EventQueue {
         let mut state = self.lock();
         state.is_closed = true;
         let events = std::mem::take(&mut state.events);
+        state.timers.clear();
         drop(state);
         self.changed.notify_one();
         drop(events);
     }
 
-    /// Removes a timer.
-    pub(crate) fn remove_timer(&self, node: &str, ordinal: u64) {
-        let is_it =
-            |key: &Key| key.rank == Rank::Timer && key.ordinal == ordinal && *key.node == *node;
+    /// Removes a timer, if it is in the queue.
+    pub(crate) fn remove_timer(&self, node: &Arc<str>, ordinal: u64) {
         let mut state = self.lock();
-        let key = state.events.keys().find(|key| is_it(key)).cloned();
-        let removed = key.and_then(|key| state.events.remove(&key));
+        let Some(time_ns) = state.timers.get(&(node.clone(), ordinal)).copied() else { return };
+        let key = Key {
+            time_ns,
+            node: node.clone(),
+            rank: Rank::Timer,
+            name: "".into(),
+            sequence: 0,
+            ordinal,
+        };
+        let removed = state.remove(&key);
         drop(state);
         drop(removed);
     }
@@ -170,11 +207,10 @@ impl EventQueue {
     /// Reschedules after a jump of the clock: timers restart, everything else is due now.
     pub(crate) fn rebase(&self, now_ns: i64) {
         let mut state = self.lock();
-        let all = std::mem::take(&mut state.events);
-        state.events = all
-            .into_iter()
-            .map(|(key, event)| (Key { time_ns: event.time_after_jump(now_ns), ..key }, event))
-            .collect();
+        state.timers.clear();
+        for (key, event) in std::mem::take(&mut state.events) {
+            state.insert(Key { time_ns: event.time_after_jump(now_ns), ..key }, event);
+        }
         drop(state);
         self.changed.notify_one();
     }
@@ -227,5 +263,35 @@ mod tests {
         assert_eq!(due.map(|(key, _)| key.time_ns), Some(STEPS));
         // One wake-up at the start and one when the event is due; the system may add spurious ones.
         assert!(looks.load(Ordering::Relaxed) <= 10, "{looks:?} looks");
+    }
+
+    /// Regression test: each alarm that had rung was looked for among the events of all nodes when it was dropped, so that
+    /// a hundred robots cost each other half of their time.
+    #[test]
+    fn a_removed_timer_is_found_by_its_node_and_ordinal() {
+        let queue = EventQueue::default();
+        let key = |node: &str, time_ns, ordinal| Key {
+            time_ns,
+            node: node.into(),
+            rank: Rank::Timer,
+            name: "".into(),
+            sequence: 0,
+            ordinal,
+        };
+        for (node, time_ns, ordinal) in [("a", 10, 1), ("a", 20, 2), ("b", 30, 1)] {
+            queue.add(key(node, time_ns, ordinal), Arc::new(Nothing));
+        }
+        let times = |queue: &EventQueue| -> Vec<i64> {
+            queue.lock().events.keys().map(|key| key.time_ns).collect()
+        };
+        queue.remove_timer(&"a".into(), 2);
+        queue.remove_timer(&"a".into(), 3);
+        assert_eq!(times(&queue), [10, 30]);
+        // One that has happened is in the index no more, one that jumped is.
+        assert!(queue.next_due(10).is_some());
+        assert_eq!(queue.lock().timers.len(), 1);
+        queue.rebase(5);
+        queue.remove_timer(&"b".into(), 1);
+        assert!(times(&queue).is_empty() && queue.lock().timers.is_empty());
     }
 }
