@@ -167,6 +167,12 @@ impl Person {
         self.velocity
     }
 
+    /// Velocity with which the agent would walk without others; zero while it waits \[m/s\].
+    #[must_use]
+    pub fn preferred_velocity(&self) -> DVec2 {
+        self.preferred
+    }
+
     /// Unit vector in which the agent looks: that of its last walk.
     #[must_use]
     pub fn heading(&self) -> DVec2 {

@@ -4,6 +4,8 @@ mod behaviour;
 mod contacts;
 mod sight;
 
+use std::sync::Arc;
+
 use glam::DVec2;
 
 use crate::agent::{
@@ -61,7 +63,8 @@ impl PersonGoal {
 #[derive(Clone, Debug)]
 struct GoalRecord {
     goal: PersonGoal,
-    route: Route,
+    /// Shared by clones of the crowd.
+    route: Arc<Route>,
 }
 
 /// Agents with one plan; those that were added alone have one each.
@@ -90,7 +93,8 @@ enum Phase {
 /// Crowd on a floor.
 #[derive(Clone, Debug)]
 pub struct Crowd {
-    floor: Floor,
+    /// Shared by clones of the crowd.
+    floor: Arc<Floor>,
     settings: CrowdSettings,
     goals: Vec<GoalRecord>,
     doors: Vec<DoorRecord>,
@@ -111,7 +115,7 @@ impl Crowd {
     #[must_use]
     pub fn new(floor: Floor, settings: CrowdSettings) -> Self {
         Self {
-            floor,
+            floor: Arc::new(floor),
             settings,
             goals: Vec::new(),
             doors: Vec::new(),
@@ -135,7 +139,7 @@ impl Crowd {
     pub fn add_goal(&mut self, goal: PersonGoal) -> Result<PersonGoalId, CrowdError> {
         let route = Route::new(&self.floor, goal.centre, goal.radius_m)
             .ok_or(CrowdError::GoalInWall(goal.centre.to_array()))?;
-        self.goals.push(GoalRecord { goal, route });
+        self.goals.push(GoalRecord { goal, route: Arc::new(route) });
         Ok(PersonGoalId(self.goals.len() - 1))
     }
 
