@@ -187,12 +187,7 @@ fn is_conflict(robot: &MovingObstacle, radius_m: f64, person: &Person) -> bool {
 }
 
 /// Counts a stop and a detour of a person in an encounter, once each.
-fn react(
-    encounter: &mut Encounter,
-    comfort: &mut RobotComfort,
-    duration_s: f64,
-    person: &Person,
-) {
+fn react(encounter: &mut Encounter, comfort: &mut RobotComfort, duration_s: f64, person: &Person) {
     let preferred_m_per_s = person.preferred_velocity().length();
     let along_m_per_s = person.velocity().dot(person.preferred_velocity()) / preferred_m_per_s;
     let speed_m_per_s = person.velocity().length();

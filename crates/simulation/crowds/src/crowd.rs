@@ -27,6 +27,9 @@ const MIN_AGENTS_PER_THREAD: usize = 32;
 /// Speed below which a walking agent keeps its heading \[m/s\].
 const HEADING_SPEED_M_PER_S: f64 = 0.1;
 
+/// Time for which an agent counts as opposed after another was in front of it \[s\].
+const OPPOSED_S: f64 = 1.5;
+
 /// Radius within which an agent counts as still \[m\].
 const STILL_RADIUS_M: f64 = 0.5;
 
@@ -216,6 +219,12 @@ impl Crowd {
         &self.obstacles
     }
 
+    /// Name of the model that chooses the velocities.
+    #[must_use]
+    pub fn model_name(&self) -> &'static str {
+        self.settings.model.name()
+    }
+
     /// Returns the floor.
     #[must_use]
     pub fn floor(&self) -> &Floor {
@@ -322,7 +331,8 @@ impl Crowd {
         for (agent, choice) in self.agents.iter_mut().zip(&self.choices) {
             agent.position += choice.velocity * step_s;
             agent.adapted = choice.adapted;
-            agent.is_opposed = choice.is_opposed;
+            agent.opposed_s =
+                if choice.is_opposed { OPPOSED_S } else { (agent.opposed_s - step_s).max(0.0) };
         }
         self.separate(&before);
         for (agent, (before, choice)) in
