@@ -1,6 +1,7 @@
 //! `periplus sim`.
 
 pub(crate) mod fleet;
+mod people;
 mod robots;
 
 use std::io::{self, Write};
@@ -47,6 +48,10 @@ pub(crate) struct SimOptions {
     /// name with a number as name and namespace
     #[arg(long = "robots", value_name = "COUNT", value_parser = robot_count)]
     robot_count: Option<usize>,
+    /// People that walk on the free floor, avoid robots and each other, and are seen by all sensors: their number, or a
+    /// file with goals, groups, doors and their model
+    #[arg(long, value_name = "COUNT|FILE.yaml")]
+    people: Option<String>,
     /// Duration of the run in simulated seconds [default: until Ctrl-C]
     #[arg(long, value_name = "SECONDS", value_parser = positive)]
     duration: Option<f64>,
@@ -184,6 +189,7 @@ pub(crate) fn run(
     let (world, arguments) = options.robots.world(&options.words, "sim")?;
     options.check()?;
     let driver = options.driver()?;
+    let people = options.people.as_deref().map(people::read).transpose()?;
     let search = terminal::search(&options.search.resource_path);
     let composition = search.with_context(true, |context| {
         let context = LoadContext { arguments: arguments.clone(), ..context.clone() };
@@ -214,6 +220,7 @@ pub(crate) fn run(
         .command(Some(recorded))
         .computed(options.computed())
         .driver(driver)
+        .people(people)
         .estimators(options.selection().request(options.number_of_robots()))
         .ros2(options.ros2.map(Into::into))
         .ros1(options.ros1.reach())

@@ -8,8 +8,8 @@ use periplus_bags::Compression;
 use periplus_nav_nodes::slam_toolbox::Pace;
 use periplus_os::Stopwatch;
 use periplus_sim::{
-    AssetFiles, Composition, Driver, Options, Search, Services, Simulation, SimulationRecorder,
-    TopicFilter, compute_topics,
+    AssetFiles, Composition, Driver, Options, PeopleFile, Search, Services, Simulation,
+    SimulationRecorder, TopicFilter, compute_topics,
 };
 
 use crate::description::describe;
@@ -69,6 +69,7 @@ pub struct SessionBuilder {
     command: Option<String>,
     computed: Option<TopicFilter>,
     driver: Driver,
+    people: Option<PeopleFile>,
     estimators: Option<EstimatorRequest>,
     ros2: Option<Option<Ros2Reach>>,
     ros1: Option<Ros1Reach>,
@@ -94,6 +95,7 @@ impl SessionBuilder {
             command: None,
             computed: None,
             driver: Driver::default(),
+            people: None,
             estimators: None,
             ros2: None,
             ros1: None,
@@ -166,6 +168,13 @@ impl SessionBuilder {
         self
     }
 
+    /// Adds people.
+    #[must_use]
+    pub fn people(mut self, people: Option<PeopleFile>) -> Self {
+        self.people = people;
+        self
+    }
+
     /// Runs estimator nodes. They are the last nodes of the session: names and parameters of
     /// `--ros-args` that no node uses are printed.
     #[must_use]
@@ -223,6 +232,7 @@ impl SessionBuilder {
         if let Some(missing) = self.composition.missing() {
             return Err(RunError::Empty(missing.to_owned()));
         }
+        self.add_people(&mut simulation)?;
         let request = self.estimators.take();
         let profiles = request.as_ref().map(|it| it.detect(&mut simulation, self.is_quiet));
         let mut profiles = profiles.transpose()?.unwrap_or_default();
@@ -264,6 +274,14 @@ impl SessionBuilder {
             has_progress: self.has_progress,
             is_whole,
         }))
+    }
+
+    /// Adds people, and prints the findings of their file.
+    fn add_people(&mut self, simulation: &mut Simulation) -> Result<(), RunError> {
+        let Some(people) = self.people.take() else { return Ok(()) };
+        let findings = simulation.add_people(&people.request);
+        terminal::diagnostics(&mut terminal::messages(), &findings, &people.sources)?;
+        if findings.has_errors() { Err(RunError::Reported) } else { Ok(()) }
     }
 
     /// Prints the findings of the files. Returns false when a requested part is missing.

@@ -1,5 +1,7 @@
 //! Report of a run.
 
+mod people;
+
 use std::io::{self, Write};
 use std::time::Duration;
 
@@ -41,7 +43,10 @@ impl RunReport<'_> {
                 size(recording.bytes)
             )?;
         }
-        Ok(())
+        match self.simulation.people_report() {
+            Some(report) => people::write_text(&report, out),
+            None => Ok(()),
+        }
     }
 
     /// JSON report.
@@ -58,6 +63,7 @@ impl RunReport<'_> {
             "step_s": seconds(self.simulation.step_ns()),
             "work": timing.into_iter().collect::<serde_json::Map<_, _>>(),
             "models": self.simulation.models().collect::<Vec<_>>(),
+            "people": self.simulation.people_report().as_ref().map(people::to_json),
             "recording": self.recording.map(|recording| json!({
                 "path": recording.path,
                 "messages": recording.messages,

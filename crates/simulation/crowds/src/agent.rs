@@ -117,8 +117,9 @@ pub struct Person {
     pub(crate) preferred: DVec2,
     /// The same with regard to the people ahead \[m/s\].
     pub(crate) adapted: DVec2,
-    /// True if another agent directly ahead comes towards the agent or does not avoid it.
-    pub(crate) is_opposed: bool,
+    /// Time for which the agent still counts as opposed: another directly ahead came towards it, or did not avoid it
+    /// \[s\].
+    pub(crate) opposed_s: f64,
     /// Point of the route to walk to.
     pub(crate) target: Option<DVec2>,
     /// Time without progress, which shrinks twice as fast as it grows \[s\].
@@ -141,7 +142,7 @@ impl Person {
             walked_m: 0.0,
             preferred: DVec2::ZERO,
             adapted: DVec2::ZERO,
-            is_opposed: false,
+            opposed_s: 0.0,
             target: None,
             blocked_s: 0.0,
             anchor: settings.position,
@@ -167,6 +168,12 @@ impl Person {
         self.velocity
     }
 
+    /// Velocity with which the agent would walk without others; zero while it waits \[m/s\].
+    #[must_use]
+    pub fn preferred_velocity(&self) -> DVec2 {
+        self.preferred
+    }
+
     /// Unit vector in which the agent looks: that of its last walk.
     #[must_use]
     pub fn heading(&self) -> DVec2 {
@@ -189,6 +196,11 @@ impl Person {
     #[must_use]
     pub fn still_s(&self) -> f64 {
         self.still_s
+    }
+
+    /// Time without progress: slow, or in one position \[s\].
+    pub(crate) fn without_progress_s(&self) -> f64 {
+        self.blocked_s.max(self.still_s)
     }
 
     /// Radius of the body; blocked people turn sideways \[m\].

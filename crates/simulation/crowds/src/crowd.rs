@@ -4,6 +4,8 @@ mod behaviour;
 mod contacts;
 mod sight;
 
+use std::sync::Arc;
+
 use glam::DVec2;
 
 use crate::agent::{
@@ -24,6 +26,9 @@ const MIN_AGENTS_PER_THREAD: usize = 32;
 
 /// Speed below which a walking agent keeps its heading \[m/s\].
 const HEADING_SPEED_M_PER_S: f64 = 0.1;
+
+/// Time for which an agent counts as opposed after another was in front of it \[s\].
+const OPPOSED_S: f64 = 1.5;
 
 /// Radius within which an agent counts as still \[m\].
 const STILL_RADIUS_M: f64 = 0.5;
@@ -61,7 +66,8 @@ impl PersonGoal {
 #[derive(Clone, Debug)]
 struct GoalRecord {
     goal: PersonGoal,
-    route: Route,
+    /// Shared by clones of the crowd.
+    route: Arc<Route>,
 }
 
 /// Agents with one plan; those that were added alone have one each.
@@ -90,7 +96,8 @@ enum Phase {
 /// Crowd on a floor.
 #[derive(Clone, Debug)]
 pub struct Crowd {
-    floor: Floor,
+    /// Shared by clones of the crowd.
+    floor: Arc<Floor>,
     settings: CrowdSettings,
     goals: Vec<GoalRecord>,
     doors: Vec<DoorRecord>,
@@ -111,7 +118,7 @@ impl Crowd {
     #[must_use]
     pub fn new(floor: Floor, settings: CrowdSettings) -> Self {
         Self {
-            floor,
+            floor: Arc::new(floor),
             settings,
             goals: Vec::new(),
             doors: Vec::new(),
@@ -135,7 +142,7 @@ impl Crowd {
     pub fn add_goal(&mut self, goal: PersonGoal) -> Result<PersonGoalId, CrowdError> {
         let route = Route::new(&self.floor, goal.centre, goal.radius_m)
             .ok_or(CrowdError::GoalInWall(goal.centre.to_array()))?;
-        self.goals.push(GoalRecord { goal, route });
+        self.goals.push(GoalRecord { goal, route: Arc::new(route) });
         Ok(PersonGoalId(self.goals.len() - 1))
     }
 
@@ -210,6 +217,12 @@ impl Crowd {
     #[must_use]
     pub fn obstacles(&self) -> &[MovingObstacle] {
         &self.obstacles
+    }
+
+    /// Name of the model that chooses the velocities.
+    #[must_use]
+    pub fn model_name(&self) -> &'static str {
+        self.settings.model.name()
     }
 
     /// Returns the floor.
@@ -318,7 +331,8 @@ impl Crowd {
         for (agent, choice) in self.agents.iter_mut().zip(&self.choices) {
             agent.position += choice.velocity * step_s;
             agent.adapted = choice.adapted;
-            agent.is_opposed = choice.is_opposed;
+            agent.opposed_s =
+                if choice.is_opposed { OPPOSED_S } else { (agent.opposed_s - step_s).max(0.0) };
         }
         self.separate(&before);
         for (agent, (before, choice)) in

@@ -26,6 +26,7 @@
 //! ```
 
 mod agent;
+mod comfort;
 mod crowd;
 mod door;
 mod error;
@@ -45,6 +46,7 @@ mod social_force;
 mod wall;
 
 pub use agent::{GroupId, Person, PersonGoalId, PersonId, PersonPlan, PersonSettings, PersonState};
+pub use comfort::{ComfortMeter, PeopleComfort, RobotComfort};
 pub use crowd::{Crowd, CrowdSettings, PersonGoal};
 pub use door::{Door, DoorControl, DoorId};
 pub use error::CrowdError;

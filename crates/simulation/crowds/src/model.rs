@@ -71,6 +71,15 @@ impl SteeringModel {
         }
     }
 
+    /// Time without progress after which people who are opposed give way or squeeze through. Forces part people more
+    /// slowly than ORCA, and with 1 s a bottleneck lets a tenth fewer through \[s\].
+    pub(crate) fn deadlock_after_s(&self) -> f64 {
+        match self {
+            Self::SocialForce(_) => 2.0,
+            Self::Orca(_) => 1.0,
+        }
+    }
+
     /// Distance that people keep to the one ahead.
     fn headway(&self) -> Option<Headway> {
         match self {

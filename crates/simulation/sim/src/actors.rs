@@ -12,7 +12,8 @@ use periplus_rendering::is_label_plugin;
 use periplus_scene::{Actor, Model};
 use periplus_sim_nodes::{FigureId, Views};
 
-use self::figure::{FIGURE_LINK_COUNT, figure_links, figure_poses};
+use self::figure::FIGURE_LINK_COUNT;
+pub(crate) use self::figure::{figure_links, figure_poses};
 
 /// Height of a first waypoint from which on the origin of the skin is taken to be at the hip, as that of the walking
 /// person of Fuel, and not on the floor \[m\].

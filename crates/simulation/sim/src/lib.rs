@@ -40,6 +40,7 @@ mod ground_truth;
 mod map_drawing;
 mod optics;
 mod pace;
+mod people;
 mod photo;
 mod profile;
 mod record;
@@ -66,6 +67,10 @@ pub use ground_truth::{
 pub use map_drawing::{MapDrawing, MapDrawingError};
 pub use optics::{OpticalRange, OpticalSurface};
 pub use pace::RealTimePacer;
+pub use people::{
+    MAX_PEOPLE_COUNT, PeopleFile, PeopleRequest, PersonMotion, RequestedDoor, RequestedGoal,
+    RequestedParty, RequestedPerson, RequestedPlan, read_people,
+};
 pub use periplus_physics::limits::STEP_RANGE_S;
 pub use periplus_physics::{Diverged, PhysicsMode};
 pub use periplus_rendering::{
@@ -75,11 +80,13 @@ pub use periplus_rendering::{
 pub use periplus_sensors::Quirks;
 pub use photo::{BoundingBox, Photo, PhotoRequest};
 pub use profile::{Work, WorkProfile};
-pub use record::{RecordError, RecordingSummary, SimulationRecorder, TRUTH_TOPIC, TopicFilter};
+pub use record::{
+    PEOPLE_TOPIC, RecordError, RecordingSummary, SimulationRecorder, TRUTH_TOPIC, TopicFilter,
+};
 pub use run::{Run, RunProgress, Tick};
 pub use services::{
     GazeboAnswer, GazeboPublisher, GazeboRequestQueue, GazeboService, GazeboTopic, InsertionResult,
     InsertionSource, ModelInsertion, Search, Services, ServicesSnapshot, SpawnError, gazebo_topic,
 };
-pub use simulation::{Options, SimulatedRobot, Simulation, Snapshot, SnapshotError};
+pub use simulation::{Options, PeopleReport, SimulatedRobot, Simulation, Snapshot, SnapshotError};
 pub use wall_grid::{wall_grid, wall_grid_around};

@@ -106,7 +106,7 @@ impl Simulation {
         };
         let seen = self.views.at(SensedGeometry::Collision, self.time_ns(), &self.motion);
         let mut map = Grid::new(info, UNKNOWN);
-        mark_walls(&mut map, seen, drawing.height_m, "");
+        mark_walls(&mut map, seen, drawing.height_m, &|_| false);
         let from = info.cell_of(x_m, y_m).filter(|from| map[*from] != OCCUPIED);
         flood(&mut map, from.ok_or(MapDrawingError::StartInShape(drawing.start_m))?);
         Ok(map)

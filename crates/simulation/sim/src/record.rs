@@ -17,6 +17,7 @@ use periplus_graph::{
 };
 use periplus_msgs::TypeRegistry;
 use periplus_msgs::gazebo_msgs::ModelStates;
+use periplus_msgs::vision_msgs::Detection3DArray;
 use periplus_os::Stopwatch;
 use periplus_os::fs::{self, File};
 
@@ -35,10 +36,15 @@ pub struct SimulationRecorder {
     shared: Arc<Shared>,
     /// Subscription that makes the simulation publish the true poses.
     truth: Option<Mailbox<ModelStates>>,
+    /// Subscription that makes the simulation publish people.
+    people: Option<Mailbox<Detection3DArray>>,
 }
 
 /// Topic of the true poses of all models in the frame of the world, `gazebo_msgs/msg/ModelStates`.
 pub const TRUTH_TOPIC: &str = "/gazebo/model_states";
+
+/// Topic of the true boxes of people, `vision_msgs/msg/Detection3DArray`.
+pub const PEOPLE_TOPIC: &str = "/people";
 
 /// Result of a recording.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -155,16 +161,19 @@ impl SimulationRecorder {
         let shared = Arc::new(Shared { wanted, state: Mutex::new(state) });
         let tap = simulation.graph().tap(Box::new(BagSink(Arc::clone(&shared))));
         shared.lock().start_ns = None;
-        Ok(Self { path: file, folder, tap, shared, truth: None })
+        Ok(Self { path: file, folder, tap, shared, truth: None, people: None })
     }
 
-    /// Records the true poses of all models on [`TRUTH_TOPIC`], too.
+    /// Records the true poses of all models on [`TRUTH_TOPIC`], too, and people on [`PEOPLE_TOPIC`].
     ///
     /// # Errors
     /// When the topic has another type.
     pub fn with_truth(mut self, simulation: &Simulation) -> Result<Self, GraphError> {
         let node = simulation.graph().node(NodeSettings::new("truth_recorder"))?;
         self.truth = Some(node.mailbox(TRUTH_TOPIC, Qos::reliable(1))?);
+        if simulation.has_people() {
+            self.people = Some(node.mailbox(PEOPLE_TOPIC, Qos::reliable(1))?);
+        }
         Ok(self)
     }
 

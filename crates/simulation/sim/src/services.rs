@@ -19,6 +19,7 @@ mod insertion;
 mod light;
 mod metrics;
 mod pause_state;
+mod people;
 mod physics;
 mod properties;
 mod reading;
@@ -41,6 +42,7 @@ use self::gazebo::Gazebo;
 use self::gz_sim::{GzSimServices, name_of};
 use self::metrics::Metrics;
 use self::pause_state::PauseState;
+use self::people::PeopleTopics;
 use self::physics::{Factor, Physics};
 use self::properties::Properties;
 use self::service_aliases::ServiceAliases;
@@ -76,6 +78,7 @@ pub struct Services {
     gz_sim: GzSimServices,
     topics: StateTopics,
     metrics: Metrics,
+    people: Option<PeopleTopics>,
     stage: Option<ViewerTopics>,
     gazebo: Option<Gazebo>,
     last_ns: i64,
@@ -115,6 +118,7 @@ impl Services {
             gz_sim: GzSimServices::new(&node, &scene.name)?,
             topics: StateTopics::new(&node, &states, now_ns)?,
             metrics: Metrics::new(&node, &scene.name, now_ns),
+            people: PeopleTopics::new(simulation)?,
             stage: None,
             gazebo: None,
             last_ns: now_ns,
@@ -134,6 +138,9 @@ impl Services {
     ) -> Result<(), GraphError> {
         let folders = self.search.folders.iter().cloned().chain(folders).collect();
         self.stage = Some(ViewerTopics::new(&self.log.node, &simulation.scene.name, folders)?);
+        if let Some(people) = &mut self.people {
+            people.offer()?;
+        }
         self.metrics.offer()
     }
 
@@ -225,6 +232,11 @@ impl Services {
         self.last_ns = simulation.time_ns();
         self.forces.serve(simulation);
         self.publish(simulation);
+        if let Some(people) = &mut self.people
+            && let Err(error) = people.serve(simulation)
+        {
+            self.log.refused("people", &error.to_string());
+        }
         if let Some(stage) = &mut self.stage
             && let Err(error) = stage.serve(simulation, &self.search)
         {
@@ -249,6 +261,7 @@ impl Services {
             pause: self.tempo,
             forces: self.forces.save(),
             topics: self.topics.save(),
+            people: self.people.as_ref().map(PeopleTopics::save),
             last_ns: self.last_ns,
         }
     }
@@ -259,6 +272,9 @@ impl Services {
         self.tempo = snapshot.pause;
         self.forces.restore(&snapshot.forces);
         self.topics.restore(&snapshot.topics);
+        if let (Some(people), Some(saved)) = (&mut self.people, snapshot.people) {
+            people.restore(saved);
+        }
         self.last_ns = snapshot.last_ns;
     }
 
@@ -278,6 +294,7 @@ pub struct ServicesSnapshot {
     pause: PauseState,
     forces: ActiveForces,
     topics: Vec<PeriodTimer>,
+    people: Option<[PeriodTimer; 2]>,
     last_ns: i64,
 }
 

@@ -2,6 +2,7 @@
 
 mod change;
 mod faults;
+mod people;
 mod robots;
 mod snapshot;
 mod view;
@@ -26,8 +27,10 @@ use periplus_sim_nodes::{
 use crate::actors::RunningActor;
 use crate::compose::{Composition, ModelInstance};
 use crate::files::AssetFiles;
+use crate::people::People;
 use crate::profile::{Work, WorkProfile};
 
+pub use people::PeopleReport;
 pub use robots::SimulatedRobot;
 pub use snapshot::{Snapshot, SnapshotError};
 pub(crate) use world_file::{WorldChange, WorldFile, is_moved, is_same};
@@ -113,6 +116,8 @@ pub struct Simulation {
     pub(crate) views: Views,
     /// Actors of the world, which move by their scripts.
     actors: Vec<RunningActor>,
+    /// People of a crowd.
+    people: Option<People>,
     files: Arc<AssetFiles>,
     options: Options,
     /// True if the seed has changed since the devices were created.
@@ -170,6 +175,7 @@ impl Simulation {
             motion,
             views,
             actors: Vec::new(),
+            people: None,
             files,
             options,
         };
@@ -434,6 +440,7 @@ impl Simulation {
         self.requested_poses.clear();
         self.views.invalidate();
         self.restart_devices();
+        self.restart_people();
     }
 
     /// Returns a counter that changes with each insertion and removal.
@@ -472,14 +479,18 @@ impl Simulation {
         for device in all(&mut self.world_devices, &mut self.running) {
             device.act(&mut self.motion, span);
         }
+        let poses_before = self.poses_before();
         if let Err(diverged) = self.motion.step(span.length_ns) {
             self.remove_diverged(diverged)?;
         }
         self.time_ns = span.end_ns();
+        self.hold_robots(&poses_before);
+        self.step_people();
         self.shares.lap(Work::Physics, &mut stopwatch);
         self.graph.advance_to(self.time_ns);
         self.shares.lap(Work::Messages, &mut stopwatch);
         self.place_actors();
+        self.place_people();
         let mut moment = SenseContext {
             span,
             world: &self.motion,
@@ -563,8 +574,10 @@ impl Simulation {
         }
         let start_ns = self.time_ns;
         let longest_ns = MAX_STEP_NS.max(step_ns);
+        let people_ns = self.people.as_ref().map(People::next_ns);
         let due_ns = all(&mut self.world_devices, &mut self.running)
             .filter_map(|device| device.next_ns())
+            .chain(people_ns)
             .map(|due_ns| due_ns - start_ns)
             .filter(|wait_ns| *wait_ns > 0)
             .fold(longest_ns, i64::min);

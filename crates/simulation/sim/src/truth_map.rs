@@ -43,10 +43,14 @@ impl Simulation {
         let (name, model) = (robot.member.name.clone(), robot.model);
         let eye = self.eye(robot);
         let world_from_robot = Pose2::from(self.motion.model_pose(model)?);
+        let people = self.names_of_people();
         let height_m = eye.height_m;
         let seen = self.views.at(eye.geometry, self.time_ns, &self.motion);
         let mut map = Grid::new(info, UNKNOWN);
-        mark_walls(&mut map, seen, height_m, &name);
+        // People are no walls.
+        mark_walls(&mut map, seen, height_m, &|model| {
+            model == name || people.iter().any(|it| it == model)
+        });
         let from = info.cell_of(world_from_robot.x_m, world_from_robot.y_m);
         if let Some(from) = from {
             flood(&mut map, from);
@@ -136,16 +140,21 @@ fn lidar(model: &Model, scope: &str) -> Option<(String, Mounted)> {
 
 /// Marks the hits of rays along all rows and columns of cells, two in each and in both directions,
 /// so that no face is missed edge-on or from behind.
-pub(crate) fn mark_walls(map: &mut OccupancyGrid, seen: &RenderScene, height_m: f64, robot: &str) {
+pub(crate) fn mark_walls(
+    map: &mut OccupancyGrid,
+    seen: &RenderScene,
+    height_m: f64,
+    is_skipped: &dyn Fn(&str) -> bool,
+) {
     let info = map.info;
     let (columns, rows) = (info.width as f64, info.height as f64);
     for half in 0..2 * info.height {
         let row = half as f64 / 2.0 + 0.25;
-        mark_line(map, seen, [(0.0, row), (columns, row)], height_m, robot);
+        mark_line(map, seen, [(0.0, row), (columns, row)], height_m, is_skipped);
     }
     for half in 0..2 * info.width {
         let column = half as f64 / 2.0 + 0.25;
-        mark_line(map, seen, [(column, 0.0), (column, rows)], height_m, robot);
+        mark_line(map, seen, [(column, 0.0), (column, rows)], height_m, is_skipped);
     }
 }
 
@@ -155,7 +164,7 @@ fn mark_line(
     seen: &RenderScene,
     ends: [(f64, f64); 2],
     height_m: f64,
-    robot: &str,
+    is_skipped: &dyn Fn(&str) -> bool,
 ) {
     let place = |(column, row): (f64, f64)| {
         let (x_m, y_m) = map.info.point_at(column, row);
@@ -181,7 +190,7 @@ fn mark_line(
                 }
             };
             let at = ray.at(hit.distance_m + into_m);
-            if seen.surface(&hit).model != robot
+            if !is_skipped(seen.surface(&hit).model)
                 && let Some(cell) = finder.cell_of(at.x, at.y)
             {
                 map[cell] = OCCUPIED;

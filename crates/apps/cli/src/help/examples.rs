@@ -191,6 +191,7 @@ pub(super) const EXAMPLES: &[(&str, &[Example])] = &[
         ("periplus sim worlds/house.sdf --robot robot.urdf.xacro --cmd drive.yaml --slam --slam-out map", "Drive by a script, build a map, save it"),
         ("periplus sim worlds/house.sdf --robot robot.urdf.xacro --navigation --page", "Send the robot to goals on the page"),
         ("periplus sim worlds/warehouse.sdf --robot robot.urdf.xacro --robots 100 --dynamics kinematic", "A hundred robots"),
+        ("periplus sim worlds/house.sdf --robot robot.urdf.xacro --people 20", "A robot among twenty people"),
     ]),
     ("slam", &[
         ("periplus slam drive.mcap --out map", "A map of a recorded drive"),

@@ -21,17 +21,20 @@ const SIDESTEP_AFTER_S: f64 = 3.0;
 /// Time for one try \[s\].
 const SIDESTEP_S: f64 = 1.5;
 
-/// Time without progress after which people who are opposed step back or squeeze through \[s\].
-pub(super) const DEADLOCK_AFTER_S: f64 = 5.0;
+/// Time for which one direction has priority in a deadlock \[s\].
+const PRIORITY_S: f64 = 2.5;
+
+/// Time without progress after which people squeeze through without priority \[s\].
+const MAX_PATIENCE_S: f64 = 6.0;
 
 /// Range of the angles of a try at the side, beyond half a radian \[rad\].
 const SIDESTEP_RAD: f64 = 1.0;
 
-/// The same in a deadlock: also backwards \[rad\].
-const STEP_BACK_RAD: f64 = 2.6;
+/// Smallest and largest angle to the right at which people give way: aside and back \[rad\].
+const GIVE_WAY_RAD: [f64; 2] = [1.4, 2.6];
 
 /// Time without progress after which wandering people choose another goal \[s\].
-const GIVE_UP_AFTER_S: f64 = 4.0;
+const GIVE_UP_AFTER_S: f64 = 8.0;
 
 /// A goal that others occupy counts as reached within this additional distance \[m\].
 const OCCUPIED_RANGE_M: f64 = 1.5;
@@ -183,7 +186,7 @@ impl Crowd {
             },
             Phase::Walking(Some(goal)) => self.walk_to(number, goal, speed),
         };
-        let sway = self.sway(number, state);
+        let sway = self.sway(number, state, preferred);
         let agent = &mut self.agents[number];
         agent.state = state;
         agent.preferred = rotate(preferred, sway);
@@ -257,25 +260,47 @@ impl Crowd {
         })
     }
 
-    /// Angle by which an agent's direction is turned: a little sway, and tries to pass at the side where it is blocked.
-    fn sway(&self, number: usize, state: PersonState) -> f64 {
+    /// Angle by which an agent's direction is turned: a little sway, tries to pass at the side where it is blocked, and
+    /// steps aside and back where it gives way.
+    fn sway(&self, number: usize, state: PersonState, preferred: DVec2) -> f64 {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "not negative")]
         let second = self.time_s as u64;
         let draw = |name: &str, count: u64| {
             Stream::keyed(self.settings.seed, name, key(number, count)).unit()
         };
-        let agent = &self.agents[number];
-        let blocked_s = agent.blocked_s.max(agent.still_s);
-        if state != PersonState::Walking || blocked_s < SIDESTEP_AFTER_S {
-            return SWAY_RAD * (2.0 * draw("crowd sway", second) - 1.0);
-        }
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "not negative")]
         let tries = (self.time_s / SIDESTEP_S) as u64;
-        // Among people who come towards it, an agent at last steps back and makes room.
-        let is_deadlock = agent.is_opposed && blocked_s > DEADLOCK_AFTER_S;
-        let range_rad = if is_deadlock { STEP_BACK_RAD } else { SIDESTEP_RAD };
-        let angle_rad = 0.5 + range_rad * draw("crowd sidestep", 2 * tries);
+        if state != PersonState::Walking
+            || self.agents[number].without_progress_s() < self.settings.model.deadlock_after_s()
+        {
+            return SWAY_RAD * (2.0 * draw("crowd sway", second) - 1.0);
+        }
+        if self.is_in_deadlock(number) && !self.may_squeeze(number, preferred) {
+            let [low_rad, high_rad] = GIVE_WAY_RAD;
+            return -(low_rad + (high_rad - low_rad) * draw("crowd give way", tries));
+        }
+        if self.agents[number].without_progress_s() < SIDESTEP_AFTER_S {
+            return SWAY_RAD * (2.0 * draw("crowd sway", second) - 1.0);
+        }
+        let angle_rad = 0.5 + SIDESTEP_RAD * draw("crowd sidestep", 2 * tries);
         if draw("crowd sidestep", 2 * tries + 1) < 0.6 { -angle_rad } else { angle_rad }
+    }
+
+    /// True if an agent has not got on for a while because another was in front of it.
+    pub(super) fn is_in_deadlock(&self, number: usize) -> bool {
+        let agent = &self.agents[number];
+        agent.opposed_s > 0.0 && agent.without_progress_s() > self.settings.model.deadlock_after_s()
+    }
+
+    /// True if an agent that would walk in a direction squeezes through in a deadlock. The four directions of the plane
+    /// take turns, so that all people of one direction get on together while the others make room; the patience of
+    /// those that make room ends at last.
+    pub(super) fn may_squeeze(&self, number: usize, direction: DVec2) -> bool {
+        const TURNS: [DVec2; 4] = [DVec2::X, DVec2::Y, DVec2::NEG_X, DVec2::NEG_Y];
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "not negative")]
+        let turn = (self.time_s / PRIORITY_S) as usize % TURNS.len();
+        direction.dot(TURNS[turn]) > 0.0
+            || self.agents[number].without_progress_s() > MAX_PATIENCE_S
     }
 }
 

@@ -3,7 +3,6 @@
 use glam::DVec2;
 
 use super::Crowd;
-use super::behaviour::DEADLOCK_AFTER_S;
 use crate::perception::{GroupView, Neighbour, Perception};
 
 /// Walls beyond this distance have no influence \[m\].
@@ -12,14 +11,14 @@ const WALL_RANGE_M: f64 = 1.5;
 /// Time between two looks at the people ahead; agents take turns \[s\].
 const DECISION_S: f64 = 0.05;
 
-/// Speed of squeezing through, as a part of the preferred one.
-const SQUEEZE_SPEED_RATIO: f64 = 0.5;
-
 /// Distance of the bodies within which others oppose an agent \[m\].
 const OPPOSED_GAP_M: f64 = 0.3;
 
 /// Cosine of the headings below which others oppose an agent.
 const OPPOSED_COSINE_RATIO: f64 = -0.3;
+
+/// Cosine of the headings below which an agent in a deadlock squeezes past others: more than 60 degrees.
+const SQUEEZE_COSINE_RATIO: f64 = 0.5;
 
 /// Choice of an agent in a step.
 #[derive(Clone, Copy, Debug, Default)]
@@ -105,9 +104,20 @@ impl Crowd {
             }
         }
         remove_hidden_walls(walls);
+        let radius_m = agent.body_radius_m();
+        let opposes = |other: &Neighbour, cosine_ratio: f64| {
+            opposes(radius_m, agent.preferred, other, cosine_ratio)
+        };
+        let is_opposed = neighbours.iter().any(|other| opposes(other, OPPOSED_COSINE_RATIO));
+        let squeezes = self.is_in_deadlock(number) && self.may_squeeze(number, agent.preferred);
+        if squeezes {
+            // It walks on until it touches them, and past them as they make room; robots are avoided still.
+            neighbours
+                .retain(|other| other.share_ratio > 0.5 || !opposes(other, SQUEEZE_COSINE_RATIO));
+        }
         let mut view = Perception {
             velocity: agent.velocity,
-            radius_m: agent.body_radius_m(),
+            radius_m,
             preferred: agent.preferred,
             max_speed_m_per_s: agent.settings.max_speed_m_per_s,
             neighbours,
@@ -119,10 +129,9 @@ impl Crowd {
         let decision_steps = (DECISION_S / step_s).round().max(1.0) as u64;
         let is_turn = (self.steps + number as u64).is_multiple_of(decision_steps);
         let is_new = (agent.adapted == DVec2::ZERO) != (agent.preferred == DVec2::ZERO);
-        let is_opposed = is_opposed(&view);
-        let adapted = if is_opposed && agent.blocked_s.max(agent.still_s) > DEADLOCK_AFTER_S {
-            // In a deadlock people keep no distance any more, and squeeze through slowly.
-            agent.preferred * SQUEEZE_SPEED_RATIO
+        let adapted = if squeezes {
+            // People keep no distance any more.
+            agent.preferred
         } else if is_turn || is_new {
             self.settings.model.adapt(&view)
         } else {
@@ -159,15 +168,13 @@ impl Crowd {
     }
 }
 
-/// True if another directly ahead will not go away by itself.
-fn is_opposed(view: &Perception<'_>) -> bool {
-    let ahead = view.preferred.normalize_or_zero();
-    view.neighbours.iter().any(|other| {
-        let gap_m = other.offset.length() - view.radius_m - other.radius_m;
-        let is_ahead = other.offset.dot(ahead) > 0.0;
-        let is_against = other.heading.dot(ahead) < OPPOSED_COSINE_RATIO || other.share_ratio > 0.5;
-        gap_m < OPPOSED_GAP_M && is_ahead && is_against
-    })
+/// True if another is directly ahead and walks in a direction with at most this cosine, or does not avoid the agent.
+fn opposes(radius_m: f64, preferred: DVec2, other: &Neighbour, cosine_ratio: f64) -> bool {
+    let ahead = preferred.normalize_or_zero();
+    let gap_m = other.offset.length() - radius_m - other.radius_m;
+    let is_ahead = other.offset.dot(ahead) > 0.0;
+    let is_against = other.heading.dot(ahead) < cosine_ratio || other.share_ratio > 0.5;
+    gap_m < OPPOSED_GAP_M && is_ahead && is_against
 }
 
 /// Keeps the nearest of wall points that are almost the same, as those of two walls that meet in a corner are.

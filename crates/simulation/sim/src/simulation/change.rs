@@ -29,6 +29,9 @@ impl Simulation {
 
     /// Resets time to zero; models keep their poses.
     pub(crate) fn reset_time(&mut self) {
+        if let Some(people) = &mut self.people {
+            people.shift_time(-self.time_ns);
+        }
         self.time_ns = 0;
         self.graph.jump_to(0);
         self.place_actors();

@@ -12,6 +12,7 @@ use periplus_sim_nodes::{Device, DeviceState, ViewsState};
 
 use super::{RunningModel, Simulation};
 use crate::compose::ModelInstance;
+use crate::people::{People, PeopleState};
 
 /// State of a [`Simulation`] at one time, from which it can continue any number of times.
 ///
@@ -27,6 +28,7 @@ pub struct Snapshot {
     motion: PhysicsWorld,
     scene: Arc<scene::World>,
     views: ViewsState,
+    people: Option<PeopleState>,
     world_devices: Vec<DeviceState>,
     models: Vec<SavedModel>,
     requested_poses: BTreeMap<String, Pose>,
@@ -112,6 +114,7 @@ impl Simulation {
             motion: self.motion.clone(),
             scene: Arc::clone(&self.scene),
             views: self.views.save(),
+            people: self.people.as_ref().map(People::state).cloned(),
             world_devices: saved(&self.world_devices),
             models: models.collect(),
             requested_poses: self.requested_poses.clone(),
@@ -148,6 +151,10 @@ impl Simulation {
         self.diverged.clone_from(&snapshot.diverged);
         self.views.restore(&snapshot.views);
         self.place_actors();
+        if let (Some(people), Some(state)) = (&mut self.people, &snapshot.people) {
+            people.restore(state);
+        }
+        self.place_people();
         self.restore_models(&snapshot.models);
         // The devices of the world are built once.
         restored(&mut self.world_devices, &snapshot.world_devices);
