@@ -17,6 +17,7 @@ mod determinism;
 mod dist;
 mod docs;
 mod drive;
+mod fleet;
 mod fuzz;
 mod goals;
 mod layers;
@@ -124,7 +125,7 @@ enum Task {
         /// `slam`: write the page again from the last runs
         #[arg(long, conflicts_with_all = ["json", "check", "logs", "runs"])]
         page: bool,
-        /// `slam`: program whose memory is measured, in place of a release build
+        /// `slam` and `fleet`: program whose memory is measured, in place of a release build
         #[arg(long, value_name = "FILE")]
         program: Option<std::path::PathBuf>,
     },
@@ -304,6 +305,8 @@ enum Contest {
     Casters,
     /// Costmaps: inflation and updates
     Costmap,
+    /// Fleets in the warehouse: speed and memory for 1 to 500 robots
+    Fleet,
     Loading,
     /// The page: time until the demo shows it, and its size
     Page,
@@ -355,6 +358,7 @@ fn perform(task: &Task) -> Result<(), Failed> {
                 Some(Contest::Bags) => bags::bench(),
                 Some(Contest::Casters) => physics::casters(),
                 Some(Contest::Costmap) => costmap::bench(),
+                Some(Contest::Fleet) => fleet::bench(program.clone()),
                 Some(Contest::Loading) => corpus::bench(),
                 Some(Contest::Page) => viewer::bench(),
                 Some(Contest::Physics) => physics::bench(),

@@ -37,7 +37,7 @@ use crate::run_options::{
     Factor, Reach, Ros1Options, TopicSelection, exit_code, factor, finite_numbers, positive,
 };
 use crate::sim::fleet::drawn_places;
-use crate::sim::{Dynamics, Robots, robot_count};
+use crate::sim::{Dynamics, Robots, people, robot_count};
 use crate::terminal;
 
 /// Drive a robot to goals in a simulated world, as Nav2 does
@@ -69,6 +69,9 @@ pub(crate) struct NavigateOptions {
     /// Motion model: rigid bodies, or motion exactly as commanded on a flat floor
     #[arg(long, value_enum, default_value_t = Dynamics::Rigid)]
     dynamics: Dynamics,
+    /// People who walk among the robots: their number, or a YAML file
+    #[arg(long, value_name = "COUNT|FILE.yaml")]
+    people: Option<String>,
     /// Controller, for the default parameters: `mppi`, which leads around obstacles, or `rpp`, regulated pure pursuit,
     /// which follows the path in a hundredth of the computing time [default: mppi, for several robots rpp]
     #[arg(long, value_enum, value_name = "NAME")]
@@ -184,6 +187,7 @@ pub(crate) fn run(options: &NavigateOptions, ros: Vec<String>) -> Result<ExitCod
         composition.spread_last(&drawn_places(load(), map, count, options.seed)?);
     }
     let pose = options.start_pose();
+    let people = options.people.as_deref().map(people::read).transpose()?;
     let factor = options.factor(&composition);
     let page = options.page.of_run(
         PageContext::of(&composition, &options.search.resource_path),
@@ -197,6 +201,7 @@ pub(crate) fn run(options: &NavigateOptions, ros: Vec<String>) -> Result<ExitCod
         .search(search)
         .recording(options.recorded.recording(options.record.as_deref()))
         .recording_truth(options.recorded.records_truth())
+        .people(people)
         .estimators(options.estimators()?)
         .ros2(options.ros2.map(Into::into))
         .ros1(options.ros1.reach())

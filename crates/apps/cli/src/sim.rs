@@ -1,7 +1,7 @@
 //! `periplus sim`.
 
 pub(crate) mod fleet;
-mod people;
+pub(crate) mod people;
 mod robots;
 
 use std::io::{self, Write};

@@ -8,7 +8,7 @@ use crate::error::CliError;
 use crate::terminal;
 
 /// Reads the value of `--people`, and prints the findings of a file.
-pub(super) fn read(word: &str) -> Result<PeopleFile, CliError> {
+pub(crate) fn read(word: &str) -> Result<PeopleFile, CliError> {
     if let Ok(count) = word.parse::<i64>() {
         return match usize::try_from(count) {
             Ok(count @ 1..=MAX_PEOPLE_COUNT) => Ok(PeopleFile::wandering(count)),

@@ -79,6 +79,9 @@ const RANGE_MARGIN_M: f64 = 0.1;
 /// Cells of the costmaps, and distance of the points of a path \[m\].
 const RESOLUTION_M: f64 = 0.05;
 
+/// Period of the controller, and of the tree above one that takes little computing time \[ms\].
+const CONTROL_PERIOD_MS: u32 = 50;
+
 /// Side of the costmap around the robot where there is no whole map \[m\].
 const UNMAPPED_SIDE_M: usize = 50;
 
@@ -303,7 +306,11 @@ impl NavigationDefaults {
             (false, PathController::RegulatedPurePursuit) => NAVIGATE_KEEPING_PATH_FILE,
             (false, PathController::Mppi) => return String::new(),
         };
-        format!("    default_nav_to_pose_bt_xml: {file}\n")
+        let mut text = format!("    default_nav_to_pose_bt_xml: {file}\n");
+        if self.controller == PathController::RegulatedPurePursuit {
+            let _ = writeln!(text, "    bt_loop_duration: {CONTROL_PERIOD_MS}");
+        }
+        text
     }
 
     /// Update rates of the local and the global costmap \[Hz\]. A robot that only stops before obstacles needs no more than
