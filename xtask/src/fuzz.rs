@@ -58,7 +58,7 @@ pub(crate) fn run_all(seconds: u32, jobs: NonZero<usize>, wanted: &[String]) -> 
     Ok(())
 }
 
-/// What a fuzz target needs, and where its findings are.
+/// Requirements of fuzz targets, and the folder of their findings.
 const TOOLS: &str = "the input that failed is in fuzz/artifacts; required are \
                      `rustup toolchain install nightly` and `cargo install --locked cargo-fuzz`";
 

@@ -105,6 +105,7 @@ pub(super) const EXAMPLES: &[(&str, &[Example])] = &[
     ]),
     ("map convert", &[("periplus map convert room.yaml -o room2 --mode scale", "The same map in another mode")]),
     ("map diff", &[("periplus map diff before.yaml after.yaml --picture diff.png", "Align two maps and compare them")]),
+    ("map draw", &[("periplus map draw worlds/warehouse.sdf --start=-10,-2.5 -f warehouse", "The map of a world as warehouse.yaml and warehouse.pgm")]),
     ("map info", &[("periplus map info room.yaml", "Size, origin, and fractions of free, occupied and unknown cells")]),
     ("map save", &[("periplus map save -f room", "Save /map as room.yaml and room.pgm")]),
     ("map serve", &[("periplus map serve room.yaml", "Publish /map and offer its services")]),
@@ -120,6 +121,7 @@ pub(super) const EXAMPLES: &[(&str, &[Example])] = &[
         ("periplus navigate worlds/house.sdf --robot robot.urdf.xacro --pose 0,0,0 --goal 3,0,1.57 --slam-out map", "Drive to a goal while SLAM builds a map, save it"),
         ("periplus navigate worlds/house.sdf --robot robot.urdf.xacro --map map/map.yaml --goal 3,0 --goal 0,0", "Drive to two goals on a map"),
         ("periplus navigate worlds/house.sdf --robot robot.urdf.xacro --goal 3,0 --page", "Watch it on a page in the browser"),
+        ("periplus navigate worlds/warehouse.sdf --robot robot.urdf.xacro --pose=-10,-2.5,0 --map warehouse.yaml --robots 20 --random-goals 3", "Twenty robots, each with its own goals"),
     ]),
     ("new package", &[
         ("periplus new package my_bot", "A package with robot, room, launch file and parameters"),

@@ -81,7 +81,7 @@ const OMITTED_PARAMETERS: [&str; 5] =
 pub(super) enum RerunParameters {
     Slam(ParamValues),
     Amcl { values: ParamValues, map_file: Option<PathBuf> },
-    Costmap { given: BTreeMap<String, ParamValue>, profile: RobotProfile },
+    Costmap { given: BTreeMap<String, ParamValue>, profile: Box<RobotProfile> },
 }
 
 /// Returns the parameters of a kind as a list of `name`, `type`, `default`, `min`, `max`, `unit` and `doc`.
@@ -229,7 +229,7 @@ impl RerunParameters {
                     let (parameter, _) = find_in(&declared, name)?;
                     values.insert(name.clone(), parsed(name, parameter, value)?);
                 }
-                Ok(Self::Costmap { given: values, profile })
+                Ok(Self::Costmap { given: values, profile: Box::new(profile) })
             }
         }
     }

@@ -460,7 +460,7 @@ impl<K: NavigatorKind> Navigator<K> {
                     paths::squared_distance_m2(&pose.pose, &current_pose.pose)
                 }),
             };
-            distance_m = self.lengths.from_m(path, self.segment);
+            distance_m = self.lengths.remaining_m(path, self.segment);
         }
         let [x, y, _] = env.shared.mean_velocity();
         let speed = libm::hypot(x, y);

@@ -44,7 +44,7 @@ pub(super) struct RemainingLengths {
 
 impl RemainingLengths {
     /// Length of a path from a pose on \[m\]; 0 behind its end.
-    pub(super) fn from_m(&mut self, path: &Path, pose: usize) -> f64 {
+    pub(super) fn remaining_m(&mut self, path: &Path, pose: usize) -> f64 {
         let [Some(first), Some(last)] = [path.poses.first(), path.poses.last()] else { return 0.0 };
         let is_same = self.path.as_ref().is_some_and(|(stamp, count, ends)| {
             (stamp, *count, &ends[0], &ends[1])
@@ -163,9 +163,9 @@ mod tests {
         assert_eq!(length_m(&path, 2), 1.0);
         assert_eq!(length_m(&path, 9), 0.0);
         let mut lengths = RemainingLengths::default();
-        assert_eq!([0, 2, 3, 9].map(|pose| lengths.from_m(&path, pose)), [4.0, 1.0, 0.0, 0.0]);
-        assert_eq!(lengths.from_m(&line(&[0.0, 2.0, 3.0, 5.0]), 0), 5.0);
-        assert_eq!(lengths.from_m(&Path::default(), 0), 0.0);
+        assert_eq!([0, 2, 3, 9].map(|pose| lengths.remaining_m(&path, pose)), [4.0, 1.0, 0.0, 0.0]);
+        assert_eq!(lengths.remaining_m(&line(&[0.0, 2.0, 3.0, 5.0]), 0), 5.0);
+        assert_eq!(lengths.remaining_m(&Path::default(), 0), 0.0);
         assert_eq!(first_after_m(&path.poses, 1.0), 2);
         assert_eq!(first_after_m(&path.poses, 9.0), 4);
         assert_eq!(first_after_m(&path.poses[..0], 9.0), 0);

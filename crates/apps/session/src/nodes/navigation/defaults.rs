@@ -27,7 +27,7 @@ pub enum PathController {
     /// MPPI: it leads around obstacles, and takes about a hundred times the computing time.
     #[default]
     Mppi,
-    /// Regulated pure pursuit: it stays on the path, and stops before obstacles until the path is planned anew.
+    /// Regulated pure pursuit: it stays on the path, and stops before obstacles until there is a new path.
     RegulatedPurePursuit,
 }
 
