@@ -119,7 +119,7 @@ fn drive(
     })
 }
 
-/// Largest memory of a process so far [MB].
+/// Largest memory of a process so far \[MB\].
 fn peak_mb(status: &str) -> Option<f64> {
     let text = std::fs::read_to_string(status).ok()?;
     let line = text.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;

@@ -1,6 +1,6 @@
 //! People in the plane: crowds that walk to goals, alone and in groups, and avoid each other, walls and robots.
 //!
-//! A [`Crowd`] has a [`Floor`] of walls, goals with routes to them, doors, and agents with a [`Plan`]. Two models choose
+//! A [`Crowd`] has a [`Floor`] of walls, goals with routes to them, doors, and agents with a [`PersonPlan`]. Two models choose
 //! the velocities, by name: the social force model ([`SocialForceParams`]) and optimal reciprocal collision avoidance
 //! ([`OrcaParams`]). Robots are given as [`MovingObstacle`]s before each step. The same settings and seed give the same
 //! bytes at any number of threads.
