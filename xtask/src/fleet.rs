@@ -7,7 +7,7 @@ use std::time::Duration;
 use serde_json::Value;
 
 use crate::results;
-use crate::step::{Failed, build_native, root, run};
+use crate::step::{Failed, build_native, peak_memory_kb, root, run};
 
 /// Numbers of robots.
 const COUNTS: [usize; 6] = [1, 10, 50, 100, 200, 500];
@@ -121,7 +121,5 @@ fn drive(
 
 /// Largest memory of a process so far \[MB\].
 fn peak_mb(status: &str) -> Option<f64> {
-    let text = std::fs::read_to_string(status).ok()?;
-    let line = text.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
-    Some(line.trim().strip_suffix(" kB")?.trim().parse::<f64>().ok()? * 1.024e-3)
+    Some(1.024e-3 * peak_memory_kb(&std::fs::read_to_string(status).ok()?)? as f64)
 }

@@ -39,6 +39,12 @@ pub(crate) fn metadata() -> Result<Value, Failed> {
     serde_json::from_slice(&output.stdout).map_err(|error| failed(error.to_string()))
 }
 
+/// Most resident memory of a process so far \[kB\], from the text of its `/proc/PID/status`; none once it has gone.
+pub(crate) fn peak_memory_kb(status: &str) -> Option<u64> {
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    line.trim().strip_suffix(" kB")?.trim().parse().ok()
+}
+
 /// Runs a program to its end.
 ///
 /// # Errors

@@ -6,6 +6,8 @@ use std::path::Path;
 use std::process::{Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
+use crate::step::peak_memory_kb;
+
 /// Exit codes of a Rust panic, and of shells for an abort and a segmentation fault.
 const BROKEN: [i32; 3] = [101, 134, 139];
 
@@ -129,12 +131,11 @@ fn judged(status: ExitStatus, most_mb: u64, limits: Limits) -> Result<(), Fault>
 /// process has gone, and while it has the name of the thread that started it: until it becomes another
 /// program it shares the memory of this one.
 fn peak_mb(status: &str, starter: &str) -> u64 {
-    let value = |key| status.lines().find_map(|line| line.strip_prefix(key)).map(str::trim);
-    if value("Name:") == Some(starter) {
+    let name = status.lines().find_map(|line| line.strip_prefix("Name:")).map(str::trim);
+    if name == Some(starter) {
         return 0;
     }
-    let kilobytes = value("VmHWM:").and_then(|line| line.strip_suffix(" kB")?.trim().parse().ok());
-    kilobytes.unwrap_or(0) / 1000
+    peak_memory_kb(status).unwrap_or(0) / 1000
 }
 
 #[cfg(test)]

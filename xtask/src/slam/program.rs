@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use serde_json::{Value, json};
 
-use crate::step::{Failed, cargo, run};
+use crate::step::{Failed, cargo, peak_memory_kb, run};
 
 /// Result of a run of the program.
 pub(crate) struct Whole {
@@ -144,9 +144,7 @@ fn measure_one(periplus: &Path, log: &Path, out: &Path) -> Result<Whole, Failed>
 
 /// The peak of what a process had in memory \[bytes\].
 fn high_water_bytes(status: &str) -> Option<f64> {
-    let text = std::fs::read_to_string(status).ok()?;
-    let line = text.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
-    Some(1024.0 * line.split_whitespace().next()?.parse::<f64>().ok()?)
+    Some(1024.0 * peak_memory_kb(&std::fs::read_to_string(status).ok()?)? as f64)
 }
 
 /// Number of constraints between each pair of kept scans.
