@@ -272,12 +272,8 @@ enum Task {
     },
     /// Run fuzz targets, starting from the seeds in `fuzz/seeds`
     Fuzz {
-        /// Duration of each target [s]
-        #[arg(long, default_value_t = 60)]
-        seconds: u32,
-        /// Number of targets that run at once
-        #[arg(long, default_value = "1")]
-        jobs: std::num::NonZero<usize>,
+        #[command(flatten)]
+        options: fuzz::Options,
         /// Targets to run; by default all
         targets: Vec<String>,
     },
@@ -429,7 +425,7 @@ fn perform(task: &Task) -> Result<(), Failed> {
         Task::Python { update: true, .. } => python::update(),
         Task::Python { only, .. } => python::check(*only),
         Task::Workflows { program } => workflows::check(program.as_deref()),
-        Task::Fuzz { seconds, jobs, targets } => fuzz::run_all(*seconds, *jobs, targets),
+        Task::Fuzz { options, targets } => fuzz::run_all(options, targets),
     }
 }
 
