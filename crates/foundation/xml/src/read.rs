@@ -63,7 +63,10 @@ struct Builder<'a> {
 
 impl Builder<'_> {
     fn run(&mut self) -> Option<Document> {
-        let text = self.text;
+        // The reader leaves byte order marks out, and does not count them in its positions.
+        let text = self.text.trim_start_matches('\u{feff}');
+        let marks = self.text.len() - text.len();
+        let offset = |position: u64| offset(position) + marks;
         let mut reader = Reader::from_str(text);
         let config = reader.config_mut();
         // End names are checked here, where both locations are known.

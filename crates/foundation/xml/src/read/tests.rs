@@ -28,6 +28,24 @@ fn elements_attributes_and_text() {
     );
 }
 
+/// Regression test, found by fuzzing: the reader leaves byte order marks out of its positions, so that every position was
+/// three bytes too early, and the text of a faulty tag began inside of a mark.
+#[test]
+fn positions_count_byte_order_marks() {
+    let text = "\u{feff}\n<a b>";
+    let (_, said) = read(text);
+    assert!(said.contains("file.xml:2:1"), "{said}");
+    for marks in 0..4 {
+        let text = format!("{}<a><b c='1'/></a>", "\u{feff}".repeat(marks));
+        let (document, said) = read(&text);
+        assert!(said.is_empty(), "{said}");
+        let root = document.unwrap().root;
+        let part = root.elements().next().unwrap();
+        let span = part.origin.0.unwrap();
+        assert_eq!(&text[span.start as usize..span.end as usize], "<b c='1'/>");
+    }
+}
+
 #[test]
 fn what_tinyxml_forgives_is_forgiven() {
     check(

@@ -8,6 +8,7 @@ use base64::engine::general_purpose::STANDARD;
 use periplus_diagnostics::{Diagnostics, SourceMap};
 use periplus_xml::{Element, XmlNode};
 
+use super::write::is_forbidden;
 use super::{RpcCall, RpcFault, XmlRpcValue};
 
 /// A text that is no request, or no response, of XML-RPC.
@@ -31,7 +32,7 @@ pub fn read_call(body: &[u8]) -> Result<RpcCall, MalformedXmlRpc> {
     if root.name != "methodCall" {
         return Err(unexpected(&root, "methodCall"));
     }
-    let method = child(&root, "methodName")?.text().trim().to_owned();
+    let method = characters(child(&root, "methodName")?).trim().to_owned();
     let params = match root.child("params") {
         Some(params) => values(params)?,
         None => Vec::new(),
@@ -125,13 +126,14 @@ fn value(element: &Element) -> Result<XmlRpcValue, MalformedXmlRpc> {
     })
 }
 
-/// All characters of an element, with the white space around them.
+/// All characters of an element, with the white space around them. Those that XML forbids are left out, as in what is
+/// written.
 fn characters(element: &Element) -> String {
     let texts = element.children.iter().filter_map(|node| match node {
         XmlNode::Text(text) => Some(text.text.as_str()),
         _ => None,
     });
-    texts.collect()
+    texts.flat_map(str::chars).filter(|character| !is_forbidden(*character)).collect()
 }
 
 fn shortened(text: &str) -> String {
@@ -192,6 +194,17 @@ mod tests {
         assert_eq!(error(&call("<colour>1</colour>")), "the type <colour> is unknown");
         let deep = "<value><array><data>".repeat(300);
         assert!(error(&call(&deep)).contains("deeper"));
+    }
+
+    /// Regression test, found by fuzzing: a control character kept the space before it, which was trimmed when the name
+    /// was written without the one and read again.
+    #[test]
+    fn characters_that_xml_forbids_are_left_out_before_trimming() {
+        let body = "<methodCall><methodName>get \u{1} \u{c}</methodName></methodCall>";
+        let call = read_call(body.as_bytes()).unwrap();
+        assert_eq!(call.method, "get");
+        assert_eq!(read_call(write_call(&call).as_bytes()), Ok(call));
+        check("<dateTime.iso8601>2026 \u{1}</dateTime.iso8601>", XmlRpcValue::Time("2026".into()));
     }
 
     #[test]

@@ -88,16 +88,20 @@ fn value(out: &mut String, one: &XmlRpcValue) {
     out.push_str("</value>");
 }
 
+/// True if XML has no such character, not even as a number.
+pub(super) fn is_forbidden(character: char) -> bool {
+    matches!(character, '\0'..='\u{1f}' | '\u{fffe}' | '\u{ffff}')
+        && !matches!(character, '\t' | '\n' | '\r')
+}
+
 /// Appends characters. Those that XML forbids are left out: no reader would accept them.
 fn escape(out: &mut String, text: &str) {
-    for character in text.chars() {
+    for character in text.chars().filter(|character| !is_forbidden(*character)) {
         match character {
             '&' => out.push_str("&amp;"),
             '<' => out.push_str("&lt;"),
             '>' => out.push_str("&gt;"),
             '\r' => out.push_str("&#13;"),
-            '\t' | '\n' => out.push(character),
-            '\0'..='\u{1f}' | '\u{fffe}' | '\u{ffff}' => {}
             _ => out.push(character),
         }
     }
