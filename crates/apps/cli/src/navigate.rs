@@ -29,7 +29,7 @@ use periplus_sim::{
 };
 
 use self::fleet::FleetTask;
-use self::random_goals::random_goals;
+use self::random_goals::GoalAreas;
 use crate::error::CliError;
 use crate::options::SearchOptions;
 use crate::page::PageOptions;
@@ -125,7 +125,7 @@ pub(crate) struct NavigateOptions {
     /// Real-time factor, or `max` for full speed [default: max, with `--page` that of the world]
     #[arg(long, value_name = "FACTOR|max", value_parser = factor)]
     rtf: Option<Factor>,
-    /// Number of threads for rays; results do not depend on it
+    /// Number of threads, for rays and for the nodes of several robots; results do not depend on it
     #[arg(long, value_name = "NUMBER")]
     threads: Option<usize>,
     /// Visibility of the run on ROS 2 [default: off at full speed]
@@ -251,12 +251,17 @@ impl NavigateOptions {
         self.robot_count.unwrap_or(self.robots.placements.len())
     }
 
+    /// True if each robot has its own namespace.
+    fn is_fleet(&self) -> bool {
+        self.robot_count.is_some() || self.robots.placements.len() > 1
+    }
+
     /// Checks combinations of options.
     fn check(&self) -> Result<(), CliError> {
         if self.robot_count.is_some() && self.robots.placements.len() != 1 {
             return Err(CliError::usage("`--robots` needs exactly one `--robot`"));
         }
-        if self.number_of_robots() < 2 {
+        if !self.is_fleet() {
             return Ok(());
         }
         if self.map.is_none() || self.random_goals.is_none() {
@@ -279,7 +284,7 @@ impl NavigateOptions {
 
     /// Map of several robots.
     fn fleet_map(&self) -> Result<Option<OccupancyGrid>, CliError> {
-        let path = self.map.as_ref().filter(|_| self.number_of_robots() > 1);
+        let path = self.map.as_ref().filter(|_| self.is_fleet());
         path.map(|path| crate::localize::map_grid(path)).transpose()
     }
 
@@ -306,7 +311,7 @@ impl NavigateOptions {
         if let (Some(count), Some(path)) = (self.random_goals, &self.map) {
             let map = crate::localize::map_grid(path)?;
             let radius_m = simulation.robot_radius_m().unwrap_or(UNKNOWN_RADIUS_M);
-            let found = random_goals(&map, start, radius_m, count, self.seed);
+            let found = GoalAreas::new(&map, radius_m).draw(start, count, self.seed);
             if found.len() < count {
                 return Err(CliError::failed(format!(
                     "{}: no position near the start has {radius_m:.2} m of room for the robot",
@@ -345,7 +350,7 @@ impl NavigateOptions {
         let mapping = is_mapped.then(|| mapping(self.slam_out.clone())).transpose()?;
         Ok(EstimatorRequest {
             detects_robot: true,
-            is_fleet: self.number_of_robots() > 1,
+            is_fleet: self.is_fleet(),
             localization: self.map.iter().cloned().collect(),
             mapping,
             navigation: Some(NavigationRequest {

@@ -82,7 +82,7 @@ pub(crate) struct SimOptions {
     /// Simulation step [s] [default: that of the world]
     #[arg(long, value_name = "SECONDS", value_parser = step)]
     step: Option<f64>,
-    /// Number of threads for rays; results do not depend on it
+    /// Number of threads, for rays and for the nodes of several robots; results do not depend on it
     #[arg(long, value_name = "NUMBER")]
     threads: Option<usize>,
     /// Reproduce quirks of Gazebo, such as periods of whole milliseconds

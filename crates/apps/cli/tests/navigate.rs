@@ -126,13 +126,17 @@ fn drawn_map(folder: &Folder) -> String {
 fn each_of_several_robots_localizes_and_reaches_its_own_goals() {
     let folder = Folder::new("navigate-fleet");
     let map = drawn_map(&folder);
+    let bag = folder.path("fleet.mcap").display().to_string();
     let run = |threads: &str| {
         let words = ["--map", &map, "--robots=3", "--random-goals=1", "--dynamics=kinematic"];
-        let mut report = navigate(&[&words[..], &[threads, "--seed=3"]].concat());
+        let more = [threads, "--seed=3", "--record", &bag];
+        let mut report = navigate(&[&words[..], &more].concat());
+        let recorded = std::fs::read(&bag).unwrap();
+        std::fs::remove_file(&bag).unwrap();
         // Wall times differ.
-        report["robots"].take()
+        (report["robots"].take(), recorded)
     };
-    let robots = run("--threads=1");
+    let (robots, recorded) = run("--threads=1");
     assert_eq!(robots.as_array().unwrap().len(), 3);
     for robot in robots.as_array().unwrap() {
         assert_eq!(robot["goals"][0]["is_reached"], true, "{robot:#}");
@@ -141,7 +145,11 @@ fn each_of_several_robots_localizes_and_reaches_its_own_goals() {
         assert!(robot["localization_error_mean_m"].as_f64().unwrap() < 0.1, "{robot:#}");
     }
     assert_ne!(robots[0]["goals"][0]["goal"], robots[1]["goals"][0]["goal"]);
-    assert_eq!(robots, run("--threads=2"));
+    for threads in ["--threads=2", "--threads=8"] {
+        let (same_robots, same_recorded) = run(threads);
+        assert_eq!(robots, same_robots);
+        assert!(recorded == same_recorded, "{threads}: other bytes are recorded");
+    }
 }
 
 #[test]

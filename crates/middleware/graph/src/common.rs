@@ -6,6 +6,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 
 use crate::actor::Jumps;
+use crate::parallel;
 use crate::steady::Steady;
 
 #[derive(Default)]
@@ -53,7 +54,9 @@ impl Clock {
 
 impl Common {
     pub(crate) fn report(&self, finding: Diagnostic) {
-        lock(&self.findings).push(finding);
+        if let Some(finding) = parallel::report(finding) {
+            lock(&self.findings).push(finding);
+        }
     }
 
     pub(crate) fn take_findings(&self) -> Diagnostics {

@@ -154,6 +154,11 @@ impl EventQueue {
         self.lock().events.first_key_value().map(|(key, _)| key.time_ns)
     }
 
+    /// True if an event is due.
+    pub(crate) fn is_due(&self, now_ns: i64) -> bool {
+        self.first_ns().is_some_and(|first_ns| first_ns <= now_ns)
+    }
+
     /// Wakes the waiting thread if an event is due. Most steps of time have no event for most
     /// nodes, and waking a thread costs more than this check.
     pub(crate) fn wake_if_due(&self, now_ns: i64) {

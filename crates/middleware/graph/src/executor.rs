@@ -1,12 +1,14 @@
 //! Advances time in lockstep.
 
 use std::collections::BTreeSet;
-use std::sync::TryLockError;
+use std::sync::{Arc, TryLockError};
 
 use periplus_diagnostics::Diagnostic;
 
-use crate::event_queue::{Key, Rank};
+use crate::common::Common;
+use crate::event_queue::{EventQueue, Rank};
 use crate::graph::Core;
+use crate::parallel::{ParallelNamespace, Workers};
 
 /// Maximum number of events without progress of time. A thousand robots with a hundred messages
 /// each per step need a tenth of it; an endless loop reaches it in about a second.
@@ -15,11 +17,55 @@ pub const MAX_REACTIONS: u64 = 1_000_000;
 /// Number of events executed after the limit to list the nodes in the loop.
 const LISTED_REACTIONS: u64 = 64;
 
-/// Counts the events at one time.
+/// Settings of execution.
 #[derive(Default)]
 pub(crate) struct Turn {
     /// The limit, if it is not [`MAX_REACTIONS`].
     pub(crate) most: Option<u64>,
+    /// Threads that run namespaces beside the one that advances time.
+    pub(crate) workers: Workers,
+}
+
+/// Counts the events at one time, and ends endless loops.
+#[derive(Default)]
+pub(crate) struct Reactions {
+    time_ns: i64,
+    count: u64,
+    cycle: BTreeSet<String>,
+}
+
+impl Reactions {
+    /// Executes everything that is due in a queue.
+    pub(crate) fn run_due(&mut self, event_queue: &EventQueue, common: &Common, limit: u64) {
+        let now_ns = common.clock.now_ns();
+        if self.time_ns != now_ns {
+            *self = Self { time_ns: now_ns, ..Self::default() };
+        }
+        while let Some((key, event)) = event_queue.next_due(now_ns) {
+            self.count += 1;
+            if limit < self.count && key.rank != Rank::Timer {
+                self.cycle.insert(format!("`{}` reacts to `{}`", key.node, key.name));
+                if limit + LISTED_REACTIONS < self.count {
+                    event_queue.drop_due(now_ns);
+                    common.report(self.endless());
+                    continue;
+                }
+            }
+            event.happen(&key);
+        }
+    }
+
+    /// The report of a loop whose messages were dropped.
+    fn endless(&self) -> Diagnostic {
+        let who: Vec<&str> = self.cycle.iter().map(String::as_str).collect();
+        let message = format!(
+            "at {} s nodes react to each other in an endless loop; their messages were dropped: {}",
+            self.time_ns as f64 / 1e9,
+            who.join(", ")
+        );
+        Diagnostic::error("endless-reactions", message)
+            .help("make one of them publish from a timer, or only on change")
+    }
 }
 
 pub(crate) fn advance(core: &Core, time_ns: i64) {
@@ -39,41 +85,22 @@ pub(crate) fn advance(core: &Core, time_ns: i64) {
         Err(TryLockError::WouldBlock) => return refuse(core),
     };
     let target_ns = if clock.is_paused() { clock.now_ns() } else { time_ns };
-    let most = turn.most.unwrap_or(MAX_REACTIONS);
-    let mut count = 0;
-    let mut cycle = BTreeSet::new();
-    while let Some((key, event)) = core.event_queue.next_due(target_ns) {
-        if clock.now_ns() < key.time_ns {
-            clock.set(key.time_ns);
-            count = 0;
-            cycle.clear();
+    let limit = turn.most.unwrap_or(MAX_REACTIONS);
+    let namespaces = core.namespaces();
+    let mut reactions = Reactions::default();
+    while let Some(first_ns) = core.first_ns(&namespaces).filter(|first_ns| *first_ns <= target_ns)
+    {
+        clock.set(clock.now_ns().max(first_ns));
+        reactions.run_due(&core.event_queue, &core.common, limit);
+        let now_ns = clock.now_ns();
+        let is_due = |it: &&Arc<ParallelNamespace>| it.event_queue.is_due(now_ns);
+        let due: Vec<_> = namespaces.iter().filter(is_due).cloned().collect();
+        if !due.is_empty() {
+            turn.workers.run(&due, &core.common, limit);
+            due.iter().for_each(|it| it.finish(&core.common));
         }
-        count += 1;
-        if most < count && key.rank != Rank::Timer {
-            cycle.insert(format!("`{}` reacts to `{}`", key.node, key.name));
-            if most + LISTED_REACTIONS < count {
-                break_cycle(core, &key, &cycle);
-                continue;
-            }
-        }
-        event.happen(&key);
     }
     clock.set(target_ns);
-}
-
-/// Drops everything that is due now, except timers, and reports the loop.
-fn break_cycle(core: &Core, last: &Key, cycle: &BTreeSet<String>) {
-    core.event_queue.drop_due(last.time_ns);
-    let who: Vec<&str> = cycle.iter().map(String::as_str).collect();
-    let message = format!(
-        "at {} s nodes react to each other in an endless loop; their messages were dropped: {}",
-        last.time_ns as f64 / 1e9,
-        who.join(", ")
-    );
-    core.common.report(
-        Diagnostic::error("endless-reactions", message)
-            .help("make one of them publish from a timer, or only on change"),
-    );
 }
 
 fn refuse(core: &Core) {
@@ -101,5 +128,8 @@ pub(crate) fn jump(core: &Core, time_ns: i64) {
     };
     clock.set(time_ns);
     core.event_queue.rebase(time_ns);
+    for namespace in &*core.namespaces() {
+        namespace.event_queue.rebase(time_ns);
+    }
     core.common.jumps.notify(time_ns);
 }

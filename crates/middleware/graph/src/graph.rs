@@ -13,6 +13,7 @@ use crate::info::{NodeInfo, ServiceInfo, TopicInfo, Traffic};
 use crate::interceptor::Interceptor;
 use crate::live::Live;
 use crate::node::{Node, NodeCore};
+use crate::parallel::{self, ParallelNamespace, Workers};
 use crate::parameters::ParameterRejection;
 use crate::registry::{Registry, TopicEntry};
 use crate::settings::NodeSettings;
@@ -36,6 +37,19 @@ pub(crate) struct Core {
     pub(crate) live: Option<Live>,
     /// Arguments for all nodes to come.
     arguments: Mutex<Arc<Arguments>>,
+}
+
+impl Core {
+    /// Namespaces whose nodes run beside those of others.
+    pub(crate) fn namespaces(&self) -> Arc<[Arc<ParallelNamespace>]> {
+        lock(&self.registry).namespaces.clone()
+    }
+
+    /// Time of the first event of these namespaces and of the nodes elsewhere \[ns\].
+    pub(crate) fn first_ns(&self, namespaces: &[Arc<ParallelNamespace>]) -> Option<i64> {
+        let queues = namespaces.iter().map(|it| &it.event_queue);
+        queues.chain([&self.event_queue]).filter_map(|it| it.first_ns()).min()
+    }
 }
 
 impl Drop for Core {
@@ -197,7 +211,7 @@ impl Graph {
     pub fn next_due_ns(&self) -> Option<i64> {
         match &self.0.live {
             Some(live) => live.first_ns(),
-            None => self.0.event_queue.first_ns(),
+            None => self.0.first_ns(&self.0.namespaces()),
         }
     }
 
@@ -227,6 +241,31 @@ impl Graph {
     #[must_use]
     pub fn is_paused(&self) -> bool {
         self.0.common.clock.is_paused()
+    }
+
+    /// Lets the nodes in each of these namespaces run at the same time as those in the others, on `threads` threads, in
+    /// lockstep. Such nodes may share state only with nodes in their namespace; messages and requests may go anywhere.
+    ///
+    /// The order of events does not depend on the number of threads: at one time, first the nodes elsewhere run, then
+    /// each of these namespaces, and then what they did beyond themselves happens, in the order of their names.
+    ///
+    /// Set this before the nodes, topics and services of these namespaces are created: those that exist stay outside.
+    pub fn run_in_parallel(&self, namespaces: &[String], threads: usize) {
+        lock(&self.0.registry).namespaces = ParallelNamespace::all(namespaces);
+        lock(&self.0.turn).workers = Workers::new(threads.saturating_sub(1));
+    }
+
+    /// Runs work of several namespaces, given by their full names: that in namespaces of [`Graph::run_in_parallel`] at the
+    /// same time as their nodes would run, on as many threads unless `is_short`, and what else there is before. The order
+    /// of what others see does not depend on the number of threads.
+    pub fn run_beside<T: Send>(
+        &self,
+        work: Vec<(&str, T)>,
+        is_short: bool,
+        act: impl Fn(T) + Sync,
+    ) {
+        let threads = if is_short { 1 } else { lock(&self.0.turn).workers.threads() + 1 };
+        parallel::run_work(&self.0.namespaces(), &self.0.common, threads, work, &act);
     }
 
     /// Replaces the limit [`crate::MAX_REACTIONS`] of events without progress of time.

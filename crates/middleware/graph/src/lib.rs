@@ -43,6 +43,7 @@ mod log;
 mod mailbox;
 mod name;
 mod node;
+mod parallel;
 mod parameters;
 mod payload;
 mod publisher;

@@ -11,6 +11,7 @@ use crate::event_queue::EventQueue;
 use crate::graph::{Core, Graph};
 use crate::lifecycle::LifecycleCore;
 use crate::mailbox::{Mailbox, RawMailbox};
+use crate::parallel::ParallelNamespace;
 use crate::parameters::Store;
 use crate::publisher::{Publisher, RawPublisher};
 use crate::publisher_core::PublisherCore;
@@ -32,6 +33,8 @@ pub(crate) struct NodeCore {
     pub(crate) core: Arc<Core>,
     /// Counter that distinguishes otherwise equal endpoints.
     ordinal: AtomicU64,
+    /// The namespace that runs beside others, in lockstep.
+    pub(crate) namespace: Option<Arc<ParallelNamespace>>,
     /// Event queue of its thread, in live mode.
     own_event_queue: OnceLock<Arc<EventQueue>>,
     pub(crate) standard: OnceLock<Standard>,
@@ -60,11 +63,13 @@ impl Node {
             registry.nodes.insert(full_name.clone(), Weak::new());
         }
         registry.changes += 1;
+        let namespace = registry.namespace_of(&full_name);
         drop(registry);
         let core = graph.0.clone();
         let store = Store::new(full_name.clone(), core.common.clone(), given, any).reading(read);
         let node = Arc::new(NodeCore {
             names,
+            namespace,
             full_name,
             core,
             ordinal: 0.into(),
@@ -251,10 +256,13 @@ impl Drop for OwnedSubscription {
 }
 
 impl NodeCore {
-    /// Event queue of the node: in lockstep the queue of the graph, in live mode its own, whose
+    /// Event queue of the node: in lockstep the queue of the graph or of its namespace, in live mode its own, whose
     /// thread starts on first use.
     pub(crate) fn event_queue(&self) -> Arc<EventQueue> {
-        let Some(live) = &self.core.live else { return self.core.event_queue.clone() };
+        let Some(live) = &self.core.live else {
+            let namespace = self.namespace.as_ref();
+            return namespace.map_or(&self.core.event_queue, |it| &it.event_queue).clone();
+        };
         let start = || live.start(&self.full_name, &self.core.common);
         self.own_event_queue.get_or_init(start).clone()
     }
@@ -308,9 +316,11 @@ impl NodeCore {
         let full = self.names.topic(topic)?;
         let (core, node) = (&self.core, self.full_name.clone());
         let common = core.common.clone();
+        let namespace = self.namespace.clone();
         let make = |id, topic| SubscriptionCore {
             id,
             node,
+            namespace,
             topic,
             common,
             reaction,

@@ -7,6 +7,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use crate::common::Common;
 use crate::info::TopicInfo;
 use crate::interceptor::{InterceptedMessage, Interceptor};
+use crate::parallel::{self, ParallelNamespace};
 use crate::payload::Payload;
 use crate::qos_event::ReportedEvents;
 use crate::sample::{EndpointId, Sample};
@@ -17,6 +18,8 @@ use crate::{Durability, Qos};
 /// State shared by all endpoints of one topic.
 pub(crate) struct Topic {
     pub(crate) name: Arc<str>,
+    /// The namespace of the topic that runs beside others.
+    pub(crate) namespace: Option<Arc<ParallelNamespace>>,
     /// Sequence number of the last message.
     pub(crate) sequence: AtomicU64,
 }
@@ -144,6 +147,18 @@ impl PublisherCore {
             return;
         }
         let payload = Arc::new(payload());
+        // An interceptor sees the messages of all namespaces.
+        let is_shared = self.is_intercepted.load(Ordering::Acquire) && parallel::is_running();
+        if is_shared || !parallel::may_change(self.topic.namespace.as_ref()) {
+            let this = self.clone();
+            parallel::after_all(move || this.deliver(payload));
+        } else {
+            self.deliver(payload);
+        }
+    }
+
+    /// Delivers a message to the interceptor, or to all subscribers.
+    fn deliver(self: &Arc<Self>, payload: Arc<Payload>) {
         if !self.is_intercepted.load(Ordering::Acquire) {
             self.send(payload);
             return;
@@ -172,22 +187,27 @@ impl PublisherCore {
             flow.last_ns = Some(time_ns);
         }
         for subscription in &flow.subscriptions {
-            subscription.push(&sample);
+            subscription.receive(&sample);
         }
-        for tap in flow.taps.iter() {
-            tap.push(&flow.info, &sample);
-        }
-        let taps = if flow.taps.is_empty() { None } else { Some(flow.taps.clone()) };
+        let tapped =
+            (!flow.taps.is_empty()).then(|| (flow.taps.clone(), flow.info.clone(), sample.clone()));
         if flow.qos.durability == Durability::TransientLocal {
             if flow.kept.len() == flow.qos.capacity() {
                 flow.kept.pop_front();
             }
             flow.kept.push_back(sample);
         }
-        drop(flow);
-        for tap in taps.iter().flat_map(|taps| taps.iter()) {
-            tap.flush();
+        // Under the lock, so that taps see the messages of a topic in their order.
+        let Some((taps, info, sample)) = tapped else { return };
+        if parallel::is_running() {
+            return parallel::after_all(move || {
+                taps.iter().for_each(|tap| tap.push(&info, &sample));
+                taps.iter().for_each(|tap| tap.flush());
+            });
         }
+        taps.iter().for_each(|tap| tap.push(&info, &sample));
+        drop(flow);
+        taps.iter().for_each(|tap| tap.flush());
     }
 }
 

@@ -11,6 +11,7 @@ use crate::common::Common;
 use crate::info::{ServiceInfo, TopicInfo, Traffic};
 use crate::interceptor::Interceptor;
 use crate::node::NodeCore;
+use crate::parallel::{self, ParallelNamespace};
 use crate::publisher_core::{PublisherCore, Topic};
 use crate::sample::EndpointId;
 use crate::subscription_core::SubscriptionCore;
@@ -29,6 +30,8 @@ pub(crate) struct Registry {
     pub(crate) services: BTreeMap<Arc<str>, ServiceEntry>,
     pub(crate) taps: Vec<Arc<Tap>>,
     pub(crate) interceptor: Option<Arc<dyn Interceptor>>,
+    /// Namespaces whose nodes run beside those of others.
+    pub(crate) namespaces: Arc<[Arc<ParallelNamespace>]>,
     next_id: u64,
     /// Counts additions and removals.
     pub(crate) changes: u64,
@@ -36,9 +39,17 @@ pub(crate) struct Registry {
 
 impl Registry {
     pub(crate) fn next_id(&mut self) -> EndpointId {
-        self.next_id += 1;
         self.changes += 1;
+        if let Some(id) = parallel::next_endpoint() {
+            return id;
+        }
+        self.next_id += 1;
         EndpointId(self.next_id)
+    }
+
+    /// The namespace of a node, topic or service that runs beside others.
+    pub(crate) fn namespace_of(&self, full_name: &str) -> Option<Arc<ParallelNamespace>> {
+        ParallelNamespace::of(&self.namespaces, full_name).cloned()
     }
 
     /// Returns the entry of a topic after creating it or checking its type.
@@ -50,7 +61,8 @@ impl Registry {
     ) -> Result<&mut TopicEntry, GraphError> {
         if !self.topics.contains_key(name) {
             let name: Arc<str> = name.into();
-            let mut entry = TopicEntry::new(name.clone(), type_of.clone(), node);
+            let namespace = self.namespace_of(&name);
+            let mut entry = TopicEntry::new(name.clone(), namespace, type_of.clone(), node);
             entry.interceptor.clone_from(&self.interceptor);
             self.topics.insert(name, entry);
         }
@@ -80,11 +92,10 @@ impl Registry {
         let entry = self.topic(name, type_of, node)?;
         let is_new = !entry.is_used();
         let publisher = Arc::new(make(id, entry.topic.clone()));
-        entry.publishers.push(publisher.clone());
-        if is_new {
-            entry.ask(&taps);
+        entry.add_publisher(&publisher, common);
+        if is_new && entry.ask(&taps) {
+            entry.connect(common);
         }
-        entry.connect(common);
         Ok(publisher)
     }
 
@@ -159,9 +170,7 @@ impl Registry {
     ) -> Option<Arc<PublisherCore>> {
         self.changes += 1;
         let entry = self.topics.get_mut(&publisher.topic.name)?;
-        let index = entry.publishers.iter().position(|other| other.id == publisher.id)?;
-        let gone = entry.publishers.remove(index);
-        entry.connect(common);
+        let gone = entry.remove_publisher(publisher.id, common)?;
         gone.connect(Vec::new(), Arc::new([]), Arc::default(), None);
         Some(gone)
     }

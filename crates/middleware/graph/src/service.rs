@@ -17,6 +17,7 @@ use crate::common::{Common, lock};
 use crate::event_queue::{Event, Key, Rank};
 use crate::graph::Core;
 use crate::node::NodeCore;
+use crate::parallel::{self, ParallelNamespace};
 use crate::payload::Payload;
 use crate::registry::TypeOf;
 pub(crate) use client::{Caller, read_answer};
@@ -35,17 +36,26 @@ pub(crate) struct Request {
 /// Return path of a response. If it is dropped unused, the caller gets an error.
 pub(crate) struct Reply {
     service: Arc<str>,
+    /// The namespace of the caller that runs beside others.
+    namespace: Option<Arc<ParallelNamespace>>,
     send: Option<Box<dyn FnOnce(Answer) + Send>>,
 }
 
 impl Reply {
     pub(crate) fn new(service: Arc<str>, send: impl FnOnce(Answer) + Send + 'static) -> Self {
-        Self { service, send: Some(Box::new(send)) }
+        Self { service, namespace: parallel::running(), send: Some(Box::new(send)) }
     }
 
     pub(crate) fn send(mut self, answer: Answer) {
-        if let Some(send) = self.send.take() {
+        self.send_once(answer);
+    }
+
+    fn send_once(&mut self, answer: Answer) {
+        let Some(send) = self.send.take() else { return };
+        if parallel::may_change(self.namespace.as_ref()) {
             send(answer);
+        } else {
+            parallel::after_all(move || send(answer));
         }
     }
 
@@ -57,8 +67,9 @@ impl Reply {
 
 impl Drop for Reply {
     fn drop(&mut self) {
-        if let Some(send) = self.send.take() {
-            send(Err(CallError::Unanswered { service: self.service.to_string() }));
+        if self.send.is_some() {
+            let service = self.service.to_string();
+            self.send_once(Err(CallError::Unanswered { service }));
         }
     }
 }
@@ -67,6 +78,8 @@ impl Drop for Reply {
 pub(crate) struct Server {
     pub(crate) node: Arc<str>,
     pub(crate) name: Arc<str>,
+    /// The namespace of the node that runs beside others.
+    namespace: Option<Arc<ParallelNamespace>>,
     pub(crate) reaction: Option<ServerReaction>,
     /// Called from the thread of the client when a request arrives.
     wake: OnceLock<Box<dyn Fn() + Send + Sync>>,
@@ -86,7 +99,16 @@ struct Waiting {
 }
 
 impl Server {
-    pub(crate) fn push(self: &Arc<Self>, request: Request, common: &Common) {
+    /// Receives a request of a client on this thread.
+    pub(crate) fn receive(self: &Arc<Self>, request: Request, common: &Arc<Common>) {
+        if parallel::may_change(self.namespace.as_ref()) {
+            return self.push(request, common);
+        }
+        let (this, common) = (self.clone(), common.clone());
+        parallel::after_all(move || this.push(request, &common));
+    }
+
+    fn push(self: &Arc<Self>, request: Request, common: &Common) {
         let mut waiting = lock(&self.waiting);
         waiting.last += 1;
         let number = waiting.last;
@@ -188,6 +210,7 @@ impl NodeCore {
         let server = Arc::new(Server {
             node,
             name: name.clone(),
+            namespace: self.namespace.clone(),
             reaction,
             wake: OnceLock::new(),
             waiting: Mutex::default(),

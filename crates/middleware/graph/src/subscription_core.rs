@@ -8,6 +8,7 @@ use periplus_msgs::DecodeError;
 
 use crate::common::{Common, lock};
 use crate::event_queue::{Event, EventQueue, Key, Rank};
+use crate::parallel::{self, ParallelNamespace};
 use crate::publisher_core::missed;
 use crate::qos::{History, KEEP_ALL_MAX_MESSAGES, Qos};
 use crate::qos_event::ReportedEvents;
@@ -16,6 +17,8 @@ use crate::sample::{EndpointId, Sample};
 pub(crate) struct SubscriptionCore {
     pub(crate) id: EndpointId,
     pub(crate) node: Arc<str>,
+    /// The namespace of the node that runs beside others.
+    pub(crate) namespace: Option<Arc<ParallelNamespace>>,
     pub(crate) topic: Arc<str>,
     pub(crate) common: Arc<Common>,
     /// Callback for messages; none if the subscription is polled.
@@ -97,6 +100,18 @@ impl SubscriptionCore {
         let finding = Diagnostic::warning("slow-subscription", message);
         self.common
             .report(finding.help("read the messages more often, or use history `KEEP_LAST`"));
+    }
+
+    /// Receives a message of a publisher on this thread.
+    pub(crate) fn receive(self: &Arc<Self>, sample: &Sample) {
+        // What is polled outside of all namespaces is polled when none runs.
+        let is_polled =
+            self.namespace.is_none() && self.reaction.is_none() && self.wake.get().is_none();
+        if is_polled || parallel::may_change(self.namespace.as_ref()) {
+            return self.push(sample);
+        }
+        let (this, sample) = (self.clone(), sample.clone());
+        parallel::after_all(move || this.push(&sample));
     }
 
     pub(crate) fn push(self: &Arc<Self>, sample: &Sample) {

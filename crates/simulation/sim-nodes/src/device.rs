@@ -4,9 +4,9 @@ use std::any::Any;
 
 use periplus_geometry::Pose;
 use periplus_physics::{LinkId, PhysicsWorld};
-use periplus_rendering::{PartId, RenderScene, SensedGeometry};
+use periplus_rendering::{PartId, SensedGeometry};
 
-use crate::Views;
+use crate::{SceneRef, Views};
 
 /// An interval of simulated time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -120,13 +120,14 @@ pub struct SensorMount {
 }
 
 /// The world at the end of a step.
+#[derive(Clone, Copy)]
 pub struct SenseContext<'a> {
     /// The step that just ended; messages are stamped with its end.
     pub span: StepInterval,
     /// Physics state.
     pub world: &'a PhysicsWorld,
     /// Ray-cast scenes.
-    pub views: &'a mut Views,
+    pub views: &'a Views,
     /// Maximum number of threads of a measurement.
     pub threads: usize,
 }
@@ -139,12 +140,14 @@ impl SenseContext<'_> {
     }
 
     /// Returns the ray-cast scene at the current time.
-    pub fn seen(&mut self, geometry: SensedGeometry) -> &RenderScene {
-        self.views.at(geometry, self.span.end_ns(), self.world)
+    #[must_use]
+    pub fn seen(&self, geometry: SensedGeometry) -> SceneRef<'_> {
+        self.views.seen(geometry, self.span.end_ns(), self.world)
     }
 
     /// Returns the id of a link in a ray-cast scene, so that a sensor can ignore its own model.
-    pub fn part(&mut self, geometry: SensedGeometry, link: LinkId) -> Option<PartId> {
+    #[must_use]
+    pub fn part(&self, geometry: SensedGeometry, link: LinkId) -> Option<PartId> {
         self.views.part(geometry, link, self.world)
     }
 }

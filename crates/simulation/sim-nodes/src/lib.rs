@@ -37,4 +37,4 @@ pub use control::{NoParameterFiles, ParameterFiles};
 pub use device::{Device, DeviceState, SenseContext, SensorMount, StepInterval};
 pub use device_context::DeviceContext;
 pub use naming::{device_node, gz_topic, plugin_node, publisher_qos, subscription_qos};
-pub use views::{FigureId, Views, ViewsState};
+pub use views::{FigureId, SceneRef, Views, ViewsState};

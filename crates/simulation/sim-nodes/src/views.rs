@@ -1,6 +1,8 @@
 //! Ray-cast scenes that follow the motion of links.
 
-use std::sync::Arc;
+use std::collections::BTreeMap;
+use std::ops::Deref;
+use std::sync::{Arc, Mutex, PoisonError, RwLock, RwLockReadGuard};
 
 use periplus_diagnostics::Diagnostics;
 use periplus_geometry::{DVec3, Pose};
@@ -9,7 +11,8 @@ use periplus_rendering::{AssetLoader, PartId, RenderScene, SensedGeometry};
 use periplus_scene as scene;
 
 /// Ray-cast scenes of the sensors, one of collisions and one of visuals. Each is built when a sensor
-/// first uses it, and updated on use: a world without cameras has no visual scene.
+/// first uses it, and updated on use: a world without cameras has no visual scene. Sensors on several threads can use
+/// them at once.
 pub struct Views {
     shapes: Arc<dyn AssetLoader + Send + Sync>,
     threads: usize,
@@ -19,9 +22,23 @@ pub struct Views {
     figures: Vec<Figure>,
     /// Lights and background colours.
     sky: Arc<scene::World>,
-    collision: Option<SceneView>,
-    visual: Option<SceneView>,
-    findings: Diagnostics,
+    collision: Slot,
+    visual: Slot,
+    findings: Mutex<Diagnostics>,
+}
+
+/// A scene, once it is used.
+type Slot = RwLock<Option<SceneView>>;
+
+/// A scene at a time. Others can read it, too.
+pub struct SceneRef<'a>(RwLockReadGuard<'a, Option<SceneView>>);
+
+impl Deref for SceneRef<'_> {
+    type Target = RenderScene;
+
+    fn deref(&self) -> &RenderScene {
+        &self.0.as_ref().expect("scenes are only handed out once built").scene
+    }
 }
 
 /// Model that sensors see and physics does not know, in the order of adding.
@@ -50,6 +67,8 @@ struct SceneView {
     scene: RenderScene,
     models: Vec<(ModelId, periplus_rendering::RenderModelId)>,
     links: Vec<(LinkId, PartId)>,
+    /// The same by link.
+    part_of_link: BTreeMap<LinkId, PartId>,
     /// Links of each figure.
     figures: Vec<Vec<PartId>>,
     /// Time of the last update of its links \[ns\]; `None` requires an update.
@@ -67,9 +86,9 @@ impl Views {
             models: Vec::new(),
             figures: Vec::new(),
             sky: Arc::new(scene::World::empty("")),
-            collision: None,
-            visual: None,
-            findings: Diagnostics::new(),
+            collision: Slot::default(),
+            visual: Slot::default(),
+            findings: Mutex::default(),
         }
     }
 
@@ -91,7 +110,7 @@ impl Views {
         let lights = &mut Arc::make_mut(&mut self.sky).lights;
         lights.retain(|known| known.name != light.name);
         lights.push(light.clone());
-        for view in [&mut self.collision, &mut self.visual].into_iter().flatten() {
+        for view in built([&mut self.collision, &mut self.visual]) {
             view.scene.set_light(light);
         }
     }
@@ -99,7 +118,7 @@ impl Views {
     /// Removes a light of the world.
     pub fn remove_light(&mut self, name: &str) {
         Arc::make_mut(&mut self.sky).lights.retain(|known| known.name != name);
-        for view in [&mut self.collision, &mut self.visual].into_iter().flatten() {
+        for view in built([&mut self.collision, &mut self.visual]) {
             view.scene.remove_light(name);
         }
     }
@@ -115,8 +134,8 @@ impl Views {
         for known in lights.filter(|known| known.name == light.name) {
             known.clone_from(light);
         }
-        for view in [&mut self.collision, &mut self.visual].into_iter().flatten() {
-            if let Some((_, part)) = view.links.iter().find(|(known, _)| *known == link) {
+        for view in built([&mut self.collision, &mut self.visual]) {
+            if let Some(part) = view.part_of_link.get(&link) {
                 view.scene.set_light_on(*part, light);
             }
         }
@@ -124,12 +143,15 @@ impl Views {
 
     /// Adds a model.
     pub fn add(&mut self, model: Arc<scene::Model>, id: ModelId, world: &PhysicsWorld) {
-        for view in [&mut self.collision, &mut self.visual].into_iter().flatten() {
+        for view in built([&mut self.collision, &mut self.visual]) {
             let pose = world.model_pose(id).unwrap_or_default();
             let parts = view.scene.add(&model, pose, &*self.shapes);
-            self.findings.append(parts.diagnostics);
+            exclusive(&mut self.findings).append(parts.diagnostics);
             view.models.push((id, parts.model));
-            view.links.extend(world.links(id).zip(parts.parts));
+            for (link, part) in world.links(id).zip(parts.parts) {
+                view.links.push((link, part));
+                view.part_of_link.insert(link, part);
+            }
             view.updated_ns = None;
         }
         self.models.push((id, model));
@@ -137,8 +159,8 @@ impl Views {
 
     /// Adds a model that sensors see and physics does not know, with its links where the model has them.
     pub fn add_figure(&mut self, model: Arc<scene::Model>) -> FigureId {
-        for view in [&mut self.collision, &mut self.visual].into_iter().flatten() {
-            view.add_figure(&model, &*self.shapes, &mut self.findings);
+        for view in built([&mut self.collision, &mut self.visual]) {
+            view.add_figure(&model, &*self.shapes, exclusive(&mut self.findings));
         }
         let links = model.links.iter().map(|link| model.parent_from_model * link.model_from_link);
         let world_from_links: Vec<Pose> = links.collect();
@@ -171,17 +193,18 @@ impl Views {
     /// Removes a model.
     pub fn remove(&mut self, id: ModelId, world: &PhysicsWorld) {
         self.models.retain(|(model, _)| *model != id);
-        for view in [&mut self.collision, &mut self.visual].into_iter().flatten() {
+        for view in built([&mut self.collision, &mut self.visual]) {
             if let Some(update) = view.models.iter().position(|(model, _)| *model == id) {
                 view.scene.remove(view.models.remove(update).1);
             }
             view.links.retain(|(link, _)| world.model_of(*link) != Some(id));
+            view.part_of_link.retain(|link, _| world.model_of(*link) != Some(id));
         }
     }
 
     /// Marks the links as moved by something other than a step, such as a teleport.
     pub fn invalidate(&mut self) {
-        for view in [&mut self.collision, &mut self.visual].into_iter().flatten() {
+        for view in built([&mut self.collision, &mut self.visual]) {
             view.updated_ns = None;
         }
     }
@@ -203,7 +226,7 @@ impl Views {
         if has_same_models && Arc::ptr_eq(&self.sky, &saved.sky) {
             return self.invalidate();
         }
-        (self.collision, self.visual) = (None, None);
+        (self.collision, self.visual) = (Slot::default(), Slot::default());
         self.models.clone_from(&saved.models);
         self.sky = Arc::clone(&saved.sky);
     }
@@ -215,43 +238,78 @@ impl Views {
         time_ns: i64,
         world: &PhysicsWorld,
     ) -> &mut RenderScene {
+        drop(self.seen(geometry, time_ns, world));
         let slot = match geometry {
             SensedGeometry::Collision => &mut self.collision,
             SensedGeometry::Visual => &mut self.visual,
         };
-        let view = slot.get_or_insert_with(|| {
-            let mut view = SceneView::new(
-                geometry,
-                &self.sky,
-                &self.models,
-                world,
-                &*self.shapes,
-                self.threads,
-                &mut self.findings,
-            );
-            for figure in &self.figures {
-                view.add_figure(&figure.model, &*self.shapes, &mut self.findings);
-            }
-            view
-        });
-        view.update(time_ns, world, &self.figures);
-        &mut view.scene
+        let view = slot.get_mut().unwrap_or_else(PoisonError::into_inner);
+        &mut view.as_mut().expect("built above").scene
     }
 
-    /// Returns the id of a link in a scene, which is built on first use.
+    /// Returns a scene at a time \[ns\] with the current poses of `world`, for one of several sensors that measure at
+    /// the same time. The first one updates it.
+    pub fn seen(
+        &self,
+        geometry: SensedGeometry,
+        time_ns: i64,
+        world: &PhysicsWorld,
+    ) -> SceneRef<'_> {
+        let slot = self.slot(geometry);
+        let guard = slot.read().unwrap_or_else(PoisonError::into_inner);
+        if guard.as_ref().is_some_and(|view| view.updated_ns == Some(time_ns)) {
+            return SceneRef(guard);
+        }
+        drop(guard);
+        let mut guard = slot.write().unwrap_or_else(PoisonError::into_inner);
+        let view = guard.get_or_insert_with(|| self.build(geometry, world));
+        view.update(time_ns, world, &self.figures);
+        drop(guard);
+        SceneRef(slot.read().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    fn slot(&self, geometry: SensedGeometry) -> &Slot {
+        match geometry {
+            SensedGeometry::Collision => &self.collision,
+            SensedGeometry::Visual => &self.visual,
+        }
+    }
+
+    /// Builds a scene.
+    fn build(&self, geometry: SensedGeometry, world: &PhysicsWorld) -> SceneView {
+        let mut findings = Diagnostics::new();
+        let mut view = SceneView::new(
+            geometry,
+            &self.sky,
+            &self.models,
+            world,
+            &*self.shapes,
+            self.threads,
+            &mut findings,
+        );
+        for figure in &self.figures {
+            view.add_figure(&figure.model, &*self.shapes, &mut findings);
+        }
+        self.findings.lock().unwrap_or_else(PoisonError::into_inner).append(findings);
+        view
+    }
+
+    /// Returns the id of a link in a scene, which is built on first use and not updated.
     pub fn part(
-        &mut self,
+        &self,
         geometry: SensedGeometry,
         link: LinkId,
         world: &PhysicsWorld,
     ) -> Option<PartId> {
-        self.at(geometry, i64::MIN, world);
-        let view = match geometry {
-            SensedGeometry::Collision => &self.collision,
-            SensedGeometry::Visual => &self.visual,
-        };
-        let links = &view.as_ref()?.links;
-        links.iter().find(|(known, _)| *known == link).map(|(_, part)| *part)
+        let slot = self.slot(geometry);
+        let guard = slot.read().unwrap_or_else(PoisonError::into_inner);
+        if let Some(view) = &*guard {
+            return view.part_of_link.get(&link).copied();
+        }
+        drop(guard);
+        let mut guard = slot.write().unwrap_or_else(PoisonError::into_inner);
+        let view = guard.get_or_insert_with(|| self.build(geometry, world));
+        view.part_of_link.get(&link).copied()
     }
 
     /// Returns the motions of the parts of a scene in use: those of links, and for figures the mean velocities since the
@@ -261,10 +319,7 @@ impl Views {
         geometry: SensedGeometry,
         world: &PhysicsWorld,
     ) -> impl Iterator<Item = (PartId, LinkState)> {
-        let view = match geometry {
-            SensedGeometry::Collision => &self.collision,
-            SensedGeometry::Visual => &self.visual,
-        };
+        let view = self.slot(geometry).read().unwrap_or_else(PoisonError::into_inner);
         let of_links = |view: &SceneView| {
             let links = view.links.iter();
             links.filter_map(|(link, part)| Some((*part, world.link_state(*link)?))).collect()
@@ -283,8 +338,20 @@ impl Views {
 
     /// Returns and clears the problems of shapes found since the last call.
     pub fn take_findings(&mut self) -> Diagnostics {
-        std::mem::take(&mut self.findings)
+        std::mem::take(exclusive(&mut self.findings))
     }
+}
+
+/// Content of a mutex that no one else can lock.
+fn exclusive<T>(mutex: &mut Mutex<T>) -> &mut T {
+    mutex.get_mut().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// The scenes that are in use.
+fn built(slots: [&mut Slot; 2]) -> impl Iterator<Item = &mut SceneView> {
+    slots
+        .into_iter()
+        .filter_map(|slot| slot.get_mut().unwrap_or_else(PoisonError::into_inner).as_mut())
 }
 
 impl Figure {
@@ -331,8 +398,17 @@ impl SceneView {
         let seen: Vec<_> = scene.models().collect();
         let models: Vec<_> = models.iter().map(|(id, _)| *id).zip(seen).collect();
         let links = models.iter().flat_map(|(id, seen)| world.links(*id).zip(scene.parts(*seen)));
-        let links = links.collect();
-        Self { scene, models, links, figures: Vec::new(), updated_ns: None, poses: Vec::new() }
+        let links: Vec<(LinkId, PartId)> = links.collect();
+        let part_of_link = links.iter().copied().collect();
+        Self {
+            scene,
+            models,
+            links,
+            part_of_link,
+            figures: Vec::new(),
+            updated_ns: None,
+            poses: Vec::new(),
+        }
     }
 
     fn add_figure(
@@ -362,5 +438,38 @@ impl SceneView {
             self.poses.extend(parts.iter().copied().zip(figure.world_from_links.iter().copied()));
         }
         self.scene.set_link_poses(&self.poses);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use periplus_diagnostics::SourceMap;
+    use periplus_physics::{NoMeshes, PhysicsMode};
+    use periplus_rendering::NoAssets;
+    use periplus_sdf::{NoIncludes, SdfContext, read_document};
+
+    use super::*;
+
+    /// Regression test: to find the part of a sensor moved all links of the world, twice for each scan, so that a hundred
+    /// robots took half of their time for it.
+    #[test]
+    fn a_part_is_found_without_moving_the_scene() {
+        let text = "<sdf version='1.9'><world name='w'><model name='m'><link name='l'><collision name='c'><geometry><box>\
+                    <size>1 1 1</size></box></geometry></collision></link></model></world></sdf>";
+        let (mut sources, mut findings) = (SourceMap::new(), Diagnostics::new());
+        let file = sources.add("w.sdf", text);
+        let document = periplus_xml::parse(file, &sources, &mut findings).unwrap();
+        let (includes, diagnostics) = (&mut NoIncludes, &mut findings);
+        let mut context = SdfContext { sources: &mut sources, diagnostics, includes };
+        let scene = read_document(&document, &mut context).worlds.remove(0);
+        let (world, _) = PhysicsWorld::new(&scene, PhysicsMode::Kinematic, &NoMeshes);
+        let mut views = Views::new(Arc::new(NoAssets), 1);
+        let (model, _) = world.models().next().unwrap();
+        views.add(Arc::new(scene.models[0].clone()), model, &world);
+        let link = world.links(model).next().unwrap();
+        drop(views.seen(SensedGeometry::Collision, 5, &world));
+        assert!(views.part(SensedGeometry::Collision, link, &world).is_some());
+        let view = views.collision.get_mut().unwrap().as_ref().unwrap();
+        assert_eq!(view.updated_ns, Some(5));
     }
 }

@@ -139,13 +139,13 @@ fn try_out(model: &scene::Model) -> Option<(String, Vec<f64>)> {
             odometries.push(ear.mailbox(&topic.name, Qos::best_effort(1)).unwrap());
         }
     }
-    let mut views = Views::new(Arc::new(NoAssets), 1);
+    let views = Views::new(Arc::new(NoAssets), 1);
     for step in 0..100 {
         let span = StepInterval { start_ns: step * STEP_NS, length_ns: STEP_NS };
         devices.iter_mut().for_each(|device| device.act(&mut world, span));
         world.step(STEP_NS).unwrap();
         graph.advance_to(span.end_ns());
-        let mut moment = SenseContext { span, world: &world, views: &mut views, threads: 1 };
+        let mut moment = SenseContext { span, world: &world, views: &views, threads: 1 };
         devices.iter_mut().for_each(|device| device.sense(&mut moment));
     }
     let mut ways_m = Vec::new();

@@ -11,37 +11,73 @@ const MARGIN_M: f64 = 0.1;
 /// Farthest cell from the start at which the search begins \[m\].
 const MAX_START_DISTANCE_M: f64 = 1.0;
 
+/// Cells of a map where a robot has room in every heading.
+pub struct FreeFloor<'a> {
+    map: &'a OccupancyGrid,
+    has_room: Vec<bool>,
+}
+
+impl<'a> FreeFloor<'a> {
+    /// Finds the cells for a robot of a radius.
+    #[must_use]
+    pub fn new(map: &'a OccupancyGrid, radius_m: f64) -> Self {
+        let room = (radius_m + MARGIN_M) / map.info.resolution_m;
+        let distances = squared_distances(map, |value| *value != occupancy::FREE);
+        let has_room = distances.cells.iter().map(|distance| f64::from(*distance) >= room * room);
+        Self { map, has_room: has_room.collect() }
+    }
+
+    /// Returns the cell from which a robot at a pose starts: the nearest with room.
+    #[must_use]
+    pub fn start_cell(&self, start: Pose2) -> Option<Cell> {
+        nearest(self.map, start, &|index| self.has_room[index])
+    }
+
+    /// Returns the cells that a robot can reach from a cell, in the order of the length of the path there: over a path
+    /// with room.
+    #[must_use]
+    pub fn reachable_from(&self, first: Cell) -> Vec<Cell> {
+        let info = &self.map.info;
+        let mut seen = vec![false; info.len()];
+        seen[info.index(first)] = true;
+        let (mut queue, mut found) = (VecDeque::from([first]), Vec::new());
+        while let Some(cell) = queue.pop_front() {
+            found.push(cell);
+            for (dx, dy) in [(1, 0), (-1, 0), (0, 1), (0, -1)] {
+                let next = cell.0.checked_add_signed(dx).zip(cell.1.checked_add_signed(dy));
+                let Some(next) = next.filter(|next| info.contains(*next)) else { continue };
+                let index = info.index(next);
+                if !seen[index] && self.has_room[index] {
+                    seen[index] = true;
+                    queue.push_back(next);
+                }
+            }
+        }
+        found
+    }
+}
+
 /// Returns the cells that a robot of a radius can reach from its start, in the order of the length of the path there:
 /// where it has room in every heading, over a path with that room. Empty if there are none.
 #[must_use]
 pub fn reachable_cells(map: &OccupancyGrid, start: Pose2, radius_m: f64) -> Vec<Cell> {
-    let room = (radius_m + MARGIN_M) / map.info.resolution_m;
-    let distances = squared_distances(map, |value| *value != occupancy::FREE);
-    let has_room = |index: usize| f64::from(distances.cells[index]) >= room * room;
-    let info = &map.info;
-    let Some(first) = nearest(map, start, &has_room) else { return Vec::new() };
-    let mut seen = vec![false; info.len()];
-    seen[info.index(first)] = true;
-    let (mut queue, mut found) = (VecDeque::from([first]), Vec::new());
-    while let Some(cell) = queue.pop_front() {
-        found.push(cell);
-        for (dx, dy) in [(1, 0), (-1, 0), (0, 1), (0, -1)] {
-            let next = cell.0.checked_add_signed(dx).zip(cell.1.checked_add_signed(dy));
-            let Some(next) = next.filter(|next| info.contains(*next)) else { continue };
-            let index = info.index(next);
-            if !seen[index] && has_room(index) {
-                seen[index] = true;
-                queue.push_back(next);
-            }
-        }
-    }
-    found
+    let floor = FreeFloor::new(map, radius_m);
+    floor.start_cell(start).map(|first| floor.reachable_from(first)).unwrap_or_default()
 }
 
 /// Cell with room that is nearest to a pose.
 fn nearest(map: &OccupancyGrid, start: Pose2, has_room: &dyn Fn(usize) -> bool) -> Option<Cell> {
     let info = &map.info;
-    let cells = (0..info.len()).map(|index| info.cell(index));
+    let reach = (MAX_START_DISTANCE_M / info.resolution_m) as i64 + 2;
+    let (column, row) = info.whole_cells_to(start.x_m, start.y_m);
+    let within = |middle: i64, size: usize| {
+        let end = middle.saturating_add(reach + 1).clamp(0, size as i64);
+        // Both are from 0 to the size.
+        (middle.saturating_sub(reach).clamp(0, end) as usize)..(end as usize)
+    };
+    let columns = within(column, info.width);
+    let cells =
+        within(row, info.height).flat_map(|row| columns.clone().map(move |column| (column, row)));
     let squared_m2 = |cell: Cell| {
         let (x_m, y_m) = info.centre_of(cell);
         let (dx_m, dy_m) = (x_m - start.x_m, y_m - start.y_m);

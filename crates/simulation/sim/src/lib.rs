@@ -60,7 +60,7 @@ pub use drive::{DriveError, Driver, ScriptFindings, VelocityTopic, velocity_topi
 pub use drive_score::{DriveCollision, DriveScore};
 pub use files::AssetFiles;
 pub use fleet_score::{FleetMember, FleetScore};
-pub use free_floor::{reachable_cells, spread_poses};
+pub use free_floor::{FreeFloor, reachable_cells, spread_poses};
 pub use ground_truth::{
     CameraFrame, LabelledPoint, LabellingCamera, LabellingError, LabellingLidar, LidarFrame,
 };

@@ -39,6 +39,10 @@ pub(crate) use world_file::{WorldChange, WorldFile, is_moved, is_same};
 /// be called.
 const MAX_STEP_NS: i64 = 10_000_000;
 
+/// Minimum number of robots whose devices measure at the same time on several threads: starting threads takes as long
+/// as the measurements of some.
+const MIN_PARALLEL_ROBOT_COUNT: usize = 4;
+
 /// Minimum step \[ns\].
 const MIN_STEP_NS: i64 = 1_000;
 
@@ -51,7 +55,7 @@ pub struct Options {
     pub mode: PhysicsMode,
     /// Step \[s\]; `None` for that of the world's physics.
     pub step_s: Option<f64>,
-    /// Number of threads for ray casting.
+    /// Number of threads for ray casting, and for nodes in the namespaces of several robots. Results do not depend on it.
     pub threads: usize,
     /// Deviations of Gazebo to reproduce.
     pub quirks: Quirks,
@@ -154,6 +158,7 @@ impl Simulation {
         let motion = PhysicsWorld::empty(gravity_m_s2, options.mode);
         let graph = Graph::new();
         graph.set_arguments(options.arguments.clone());
+        graph.run_in_parallel(&namespaces_of_robots(composition), options.threads);
         let views = Views::new(Arc::clone(&files) as _, options.threads).with_lights_of(&scene);
         let mut simulation = Self {
             step_ns: nanoseconds(step_s).max(MIN_STEP_NS),
@@ -205,6 +210,16 @@ impl Simulation {
         }
         simulation
     }
+}
+
+/// Namespaces of robots, if there are several: what runs in one does not touch what runs in another.
+fn namespaces_of_robots(composition: &Composition) -> Vec<String> {
+    let own = composition.members.iter().map(|member| member.namespace.as_str());
+    let mut namespaces: Vec<String> =
+        own.filter(|it| !it.trim_matches('/').is_empty()).map(str::to_owned).collect();
+    namespaces.sort();
+    namespaces.dedup();
+    if namespaces.len() < 2 { Vec::new() } else { namespaces }
 }
 
 impl Simulation {
@@ -491,18 +506,36 @@ impl Simulation {
         self.shares.lap(Work::Messages, &mut stopwatch);
         self.place_actors();
         self.place_people();
-        let mut moment = SenseContext {
-            span,
-            world: &self.motion,
-            views: &mut self.views,
-            threads: self.options.threads,
-        };
-        for device in all(&mut self.world_devices, &mut self.running) {
-            device.sense(&mut moment);
-        }
+        self.sense(span);
         self.collect_findings();
         self.shares.lap(Work::Sensing, &mut stopwatch);
         Ok(())
+    }
+
+    /// Lets the devices measure: those of robots in different namespaces at the same time.
+    fn sense(&mut self, span: StepInterval) {
+        let due = |running: &&RunningModel| {
+            let mut next_ns = running.devices.iter().filter_map(|device| device.next_ns());
+            next_ns.any(|due_ns| due_ns <= span.end_ns())
+        };
+        let robots_due = self.running.iter().filter(due).take(MIN_PARALLEL_ROBOT_COUNT).count();
+        let is_short = robots_due < MIN_PARALLEL_ROBOT_COUNT;
+        let threads = self.options.threads;
+        let (world, views) = (&self.motion, &self.views);
+        let moment = SenseContext { span, world, views, threads };
+        for device in &mut self.world_devices {
+            device.sense(&mut moment.clone());
+        }
+        // Other robots need the threads, too.
+        let threads = if is_short { threads } else { (threads / MIN_PARALLEL_ROBOT_COUNT).max(1) };
+        let moment = SenseContext { threads, ..moment };
+        let work = self.running.iter_mut().map(|running| {
+            let RunningModel { member, devices, .. } = running;
+            (member.namespace.as_str(), devices)
+        });
+        self.graph.run_beside(work.collect(), is_short, |devices: &mut Vec<Box<dyn Device>>| {
+            devices.iter_mut().for_each(|device| device.sense(&mut moment.clone()));
+        });
     }
 
     /// Measures once for subscribers that joined during a pause.
@@ -510,7 +543,7 @@ impl Simulation {
         let mut moment = SenseContext {
             span: StepInterval { start_ns: self.time_ns, length_ns: 0 },
             world: &self.motion,
-            views: &mut self.views,
+            views: &self.views,
             threads: self.options.threads,
         };
         for device in all(&mut self.world_devices, &mut self.running) {

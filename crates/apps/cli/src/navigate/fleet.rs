@@ -15,7 +15,7 @@ use periplus_tf::TransformKind;
 use periplus_tf_ros::Frames;
 use serde_json::{Value, json};
 
-use super::random_goals::random_goals;
+use super::random_goals::GoalAreas;
 use super::{NavigateOptions, UNKNOWN_RADIUS_M, report};
 use crate::error::CliError;
 
@@ -107,12 +107,13 @@ impl FleetTask {
         let estimators = session.take_estimators();
         let radius_m = session.simulation().robot_radius_m().unwrap_or(UNKNOWN_RADIUS_M);
         let count = options.random_goals.unwrap_or_default();
+        let mut areas = GoalAreas::new(&map, radius_m);
         let profiles = session.profiles().iter().zip(estimators).zip(session.simulation().robots());
         let robots = profiles.enumerate().map(|(index, ((profile, estimators), robot))| {
             let start = Pose2::from(robot.world_from_robot);
             // Each robot has its own goals.
             let seed = options.seed.wrapping_add((index as u64) << 32);
-            let given = random_goals(&map, start, radius_m, count, seed);
+            let given = areas.draw(start, count, seed);
             if given.len() < count {
                 return Err(CliError::failed(format!(
                     "`{}` has no room of {radius_m:.2} m around its start {}: the map must have the frame of the world",

@@ -1,36 +1,63 @@
 //! Random goals on a map.
 
 use periplus_geometry::{Pose2, Stream};
-use periplus_grid::OccupancyGrid;
-use periplus_sim::reachable_cells;
+use periplus_grid::{Cell, GridInfo, OccupancyGrid};
+use periplus_sim::FreeFloor;
 
-/// Draws poses on a map that a robot of a radius can reach from its start: where it has room in every heading, over a
-/// path with that room. Empty if there are none.
-pub(super) fn random_goals(
-    map: &OccupancyGrid,
-    start: Pose2,
-    radius_m: f64,
-    count: usize,
-    seed: u64,
-) -> Vec<Pose2> {
-    let reachable = reachable_cells(map, start, radius_m);
-    if reachable.is_empty() {
-        return Vec::new();
+/// Goals on a map that robots of a radius can reach from their starts: where they have room in every heading, over a path
+/// with that room. Robots that start in the same area share its cells.
+pub(super) struct GoalAreas<'a> {
+    info: GridInfo,
+    floor: FreeFloor<'a>,
+    /// Cells of each area, the nearest to the first start in it first.
+    areas: Vec<Vec<Cell>>,
+    /// Number of the area of each cell.
+    area_of: Vec<Option<usize>>,
+}
+
+impl<'a> GoalAreas<'a> {
+    pub(super) fn new(map: &'a OccupancyGrid, radius_m: f64) -> Self {
+        Self {
+            info: map.info,
+            floor: FreeFloor::new(map, radius_m),
+            areas: Vec::new(),
+            area_of: vec![None; map.info.len()],
+        }
     }
-    (0..count as u64)
-        .map(|number| {
-            let mut stream = Stream::keyed(seed, "random goals", number);
-            let place = (stream.unit() * reachable.len() as f64) as usize;
-            let (x_m, y_m) = map.info.centre_of(reachable[place.min(reachable.len() - 1)]);
-            let yaw_rad = (2.0 * stream.unit() - 1.0) * std::f64::consts::PI;
-            Pose2::new(x_m, y_m, yaw_rad)
-        })
-        .collect()
+
+    /// Draws goals of a robot. Empty if it has no room at its start.
+    pub(super) fn draw(&mut self, start: Pose2, count: usize, seed: u64) -> Vec<Pose2> {
+        let Some(first) = self.floor.start_cell(start) else { return Vec::new() };
+        let area = self.area_around(first);
+        let (cells, info) = (&self.areas[area], &self.info);
+        (0..count as u64)
+            .map(|number| {
+                let mut stream = Stream::keyed(seed, "random goals", number);
+                let place = (stream.unit() * cells.len() as f64) as usize;
+                let (x_m, y_m) = info.centre_of(cells[place.min(cells.len() - 1)]);
+                let yaw_rad = (2.0 * stream.unit() - 1.0) * std::f64::consts::PI;
+                Pose2::new(x_m, y_m, yaw_rad)
+            })
+            .collect()
+    }
+
+    /// Number of the area around a cell, which is found when it is first needed.
+    fn area_around(&mut self, first: Cell) -> usize {
+        if let Some(known) = self.area_of[self.info.index(first)] {
+            return known;
+        }
+        let cells = self.floor.reachable_from(first);
+        for cell in &cells {
+            self.area_of[self.info.index(*cell)] = Some(self.areas.len());
+        }
+        self.areas.push(cells);
+        self.areas.len() - 1
+    }
 }
 
 #[cfg(test)]
 mod tests {
-    use periplus_grid::{Grid, GridInfo, occupancy};
+    use periplus_grid::{Grid, occupancy};
 
     use super::*;
 
@@ -48,9 +75,14 @@ mod tests {
         map
     }
 
+    fn goals_of(seed: u64) -> Vec<Pose2> {
+        let map = rooms();
+        GoalAreas::new(&map, 0.2).draw(Pose2::new(1.0, 1.0, 0.0), 200, seed)
+    }
+
     #[test]
     fn goals_are_in_the_room_of_the_start_and_away_from_walls() {
-        let goals = random_goals(&rooms(), Pose2::new(1.0, 1.0, 0.0), 0.2, 200, 1);
+        let goals = goals_of(1);
         assert_eq!(goals.len(), 200);
         for goal in &goals {
             assert!(
@@ -58,12 +90,24 @@ mod tests {
                 "{goal:?}"
             );
         }
-        assert_eq!(goals, random_goals(&rooms(), Pose2::new(1.0, 1.0, 0.0), 0.2, 200, 1));
-        assert_ne!(goals, random_goals(&rooms(), Pose2::new(1.0, 1.0, 0.0), 0.2, 200, 2));
+        assert_eq!(goals, goals_of(1));
+        assert_ne!(goals, goals_of(2));
+    }
+
+    #[test]
+    fn robots_in_one_room_share_its_cells() {
+        let map = rooms();
+        let mut areas = GoalAreas::new(&map, 0.2);
+        let [one, other, beyond] = [1.0, 2.0, 5.0].map(|x_m| Pose2::new(x_m, 1.0, 0.0));
+        let goals = areas.draw(one, 20, 1);
+        assert_eq!(areas.draw(other, 20, 1), goals);
+        assert!(areas.draw(beyond, 20, 1).iter().all(|goal| goal.x_m > 3.0));
+        assert_eq!(areas.areas.len(), 2);
     }
 
     #[test]
     fn a_robot_that_fits_nowhere_has_no_goals() {
-        assert!(random_goals(&rooms(), Pose2::new(1.0, 1.0, 0.0), 2.0, 3, 1).is_empty());
+        let map = rooms();
+        assert!(GoalAreas::new(&map, 2.0).draw(Pose2::new(1.0, 1.0, 0.0), 3, 1).is_empty());
     }
 }

@@ -12,6 +12,7 @@ use crate::info::{
     EndpointInfo, PublisherTraffic, QosMismatch, SubscriptionTraffic, TopicInfo, Traffic,
 };
 use crate::interceptor::Interceptor;
+use crate::parallel::ParallelNamespace;
 use crate::publisher_core::{PublisherCore, Topic};
 use crate::sample::EndpointId;
 use crate::subscription_core::SubscriptionCore;
@@ -33,9 +34,14 @@ pub(crate) struct TopicEntry {
 }
 
 impl TopicEntry {
-    pub(super) fn new(name: Arc<str>, type_of: TypeOf, node: &Arc<str>) -> Self {
+    pub(super) fn new(
+        name: Arc<str>,
+        namespace: Option<Arc<ParallelNamespace>>,
+        type_of: TypeOf,
+        node: &Arc<str>,
+    ) -> Self {
         Self {
-            topic: Arc::new(Topic { name, sequence: 0.into() }),
+            topic: Arc::new(Topic { name, namespace, sequence: 0.into() }),
             type_of,
             type_from: node.clone(),
             publishers: Vec::new(),
@@ -69,53 +75,101 @@ impl TopicEntry {
         any
     }
 
+    /// Adds a publisher. The others need to know it only if a tap or an interceptor has a description of the topic.
+    pub(super) fn add_publisher(&mut self, publisher: &Arc<PublisherCore>, common: &Common) {
+        let is_before =
+            |it: &Arc<PublisherCore>| (&it.node, it.id) < (&publisher.node, publisher.id);
+        let index = self.publishers.partition_point(is_before);
+        self.publishers.insert(index, publisher.clone());
+        if self.is_described() {
+            self.connect(common);
+        } else {
+            self.connect_publisher(publisher, &Arc::default(), None);
+            let subscriptions = self.subscriptions.clone();
+            for subscription in &subscriptions {
+                self.report_mismatch(publisher, subscription, common);
+            }
+        }
+    }
+
+    /// Removes a publisher.
+    pub(super) fn remove_publisher(
+        &mut self,
+        id: EndpointId,
+        common: &Common,
+    ) -> Option<Arc<PublisherCore>> {
+        let index = self.publishers.iter().position(|other| other.id == id)?;
+        let gone = self.publishers.remove(index);
+        if self.is_described() {
+            self.connect(common);
+        }
+        Some(gone)
+    }
+
+    /// True if a tap or an interceptor has a description of the topic, which is long if there are many endpoints.
+    fn is_described(&self) -> bool {
+        !self.taps.is_empty() || self.interceptor.is_some()
+    }
+
     /// Updates the connections of every publisher; returns the retained messages in the order of
     /// publication.
     pub(super) fn connect(&mut self, common: &Common) -> Vec<(Arc<PublisherCore>, Sample)> {
         self.publishers.sort_by(|a, b| (&a.node, a.id).cmp(&(&b.node, b.id)));
         self.subscriptions.sort_by(|a, b| (&a.node, a.id).cmp(&(&b.node, b.id)));
-        // Only taps and interceptors need the description, and it is long on topics with many endpoints.
-        let needs_info = !self.taps.is_empty() || self.interceptor.is_some();
-        let info = if needs_info { Arc::new(self.info()) } else { Arc::default() };
-        let interceptor = self.interceptor.as_ref().filter(|it| it.wants(&info)).cloned();
+        let info = if self.is_described() { Arc::new(self.info()) } else { Arc::default() };
+        let interceptor = self.interceptor.as_ref().filter(|it| it.wants(&info));
         let mut kept = Vec::new();
         for publisher in &self.publishers {
-            let offered = publisher.qos();
-            let fits = |subscription: &&Arc<SubscriptionCore>| {
-                offered.incompatible_policies(&subscription.qos()).is_empty()
-            };
-            let subscriptions = self.subscriptions.iter().filter(fits).cloned().collect();
-            let taps = self.taps.clone();
-            let samples = publisher.connect(subscriptions, taps, info.clone(), interceptor.clone());
+            let samples = self.connect_publisher(publisher, &info, interceptor);
             kept.extend(samples.into_iter().map(|sample| (publisher.clone(), sample)));
         }
-        self.report_mismatches(common);
+        let (publishers, subscriptions) = (self.publishers.clone(), self.subscriptions.clone());
+        for publisher in &publishers {
+            for subscription in &subscriptions {
+                self.report_mismatch(publisher, subscription, common);
+            }
+        }
         kept.sort_by_key(|(_, sample)| sample.sequence);
         kept
     }
 
-    /// Reports each incompatible pair of nodes once.
-    fn report_mismatches(&mut self, common: &Common) {
-        for publisher in &self.publishers {
-            for subscription in &self.subscriptions {
-                let unfit = IncompatiblePolicy::between(&publisher.qos(), &subscription.qos());
-                let pair = (publisher.node.clone(), subscription.node.clone());
-                if unfit.is_empty() || !self.reported.insert(pair) {
-                    continue;
-                }
-                let policies: Vec<String> = unfit.iter().map(ToString::to_string).collect();
-                let message = format!(
-                    "`{}` receives nothing from `{}` on the topic `{}`: the publisher {}",
-                    subscription.node,
-                    publisher.node,
-                    self.topic.name,
-                    policies.join("; ")
-                );
-                let help =
-                    "make the QoS of the publisher stronger, or that of the subscription weaker";
-                common.report(Diagnostic::warning("qos-mismatch", message).help(help));
-            }
+    /// Updates the connections of a publisher; returns its retained messages.
+    fn connect_publisher(
+        &self,
+        publisher: &PublisherCore,
+        info: &Arc<TopicInfo>,
+        interceptor: Option<&Arc<dyn Interceptor>>,
+    ) -> Vec<Sample> {
+        let offered = publisher.qos();
+        let fits = |subscription: &&Arc<SubscriptionCore>| {
+            offered.incompatible_policies(&subscription.qos()).is_empty()
+        };
+        let subscriptions = self.subscriptions.iter().filter(fits).cloned().collect();
+        publisher.connect(subscriptions, self.taps.clone(), info.clone(), interceptor.cloned())
+    }
+
+    /// Reports an incompatible pair of nodes once.
+    fn report_mismatch(
+        &mut self,
+        publisher: &PublisherCore,
+        subscription: &SubscriptionCore,
+        common: &Common,
+    ) {
+        let unfit = IncompatiblePolicy::between(&publisher.qos(), &subscription.qos());
+        let pair = (publisher.node.clone(), subscription.node.clone());
+        if unfit.is_empty() || !self.reported.insert(pair) {
+            return;
         }
+        let policies: Vec<String> = unfit.iter().map(ToString::to_string).collect();
+        let message = format!(
+            "`{}` receives nothing from `{}` on the topic `{}`: the publisher {}",
+            subscription.node,
+            publisher.node,
+            self.topic.name,
+            policies.join("; ")
+        );
+        let help = "make the QoS of the publisher stronger, or that of the subscription weaker";
+        common.report(Diagnostic::warning("qos-mismatch", message).help(help));
     }
 
     pub(crate) fn is_subscribed(&self) -> bool {

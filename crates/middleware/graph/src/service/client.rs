@@ -30,7 +30,7 @@ impl Caller {
         match self.server() {
             Some(server) => {
                 let request = Request { payload: Arc::new(payload), reply };
-                server.push(request, &self.node.core.common);
+                server.receive(request, &self.node.core.common);
             }
             None => reply.send(Err(self.no_server())),
         }

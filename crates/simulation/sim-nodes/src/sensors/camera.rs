@@ -269,7 +269,7 @@ impl CameraDevice {
                 };
                 let scene = moment.seen(SensedGeometry::Visual);
                 scene.render(&shot, &mut unit.picture);
-                detections = unit.detections(scene, &shot);
+                detections = unit.detections(&scene, &shot);
                 unit.spoil(&mut unit.streams.tick(tick));
             }
             for out in &unit.outputs {

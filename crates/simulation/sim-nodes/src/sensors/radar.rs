@@ -157,7 +157,7 @@ impl RadarDevice {
         let own = moment.part(SensedGeometry::Collision, self.mount.link);
         let (threads, world) = (moment.threads, moment.world);
         // Motions of all parts, because the scene is borrowed while rays are cast.
-        moment.seen(SensedGeometry::Collision);
+        drop(moment.seen(SensedGeometry::Collision));
         let motions: BTreeMap<PartId, LinkState> =
             moment.views.part_motions(SensedGeometry::Collision, world).collect();
         let seen = moment.seen(SensedGeometry::Collision);

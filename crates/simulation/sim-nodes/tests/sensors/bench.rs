@@ -130,7 +130,7 @@ impl Bench {
             self.world.step(span.length_ns).unwrap();
             self.now_ns = span.end_ns();
             self.graph.advance_to(self.now_ns);
-            let (world, views) = (&self.world, &mut self.views);
+            let (world, views) = (&self.world, &self.views);
             let mut moment = SenseContext { span, world, views, threads: 1 };
             for device in &mut self.devices {
                 device.sense(&mut moment);
