@@ -79,10 +79,8 @@ fn drive(
         "--quiet",
     ]);
     command.args([format!("--robots={count}"), format!("--timeout={duration_s}")]);
-    if count == 1 {
-        // The controller of fleets.
-        command.arg("--controller=rpp");
-    }
+    // The controller of fleets, for one robot, too.
+    command.arg("--controller=rpp");
     let started = command.stdout(Stdio::piped()).stderr(Stdio::null()).spawn();
     let mut child = started.map_err(|error| Failed(format!("{}: {error}", program.display())))?;
     let status = format!("/proc/{}/status", child.id());
@@ -103,10 +101,9 @@ fn drive(
     let report: Value = serde_json::from_str(&text)
         .map_err(|error| Failed(format!("{count} robots printed no report: {error}")))?;
     let number = |value: &Value| value.as_f64().unwrap_or(f64::NAN);
-    // A single robot has the report of `navigate` for one.
     let empty = Vec::new();
     let robots = report["robots"].as_array().unwrap_or(&empty);
-    let goals = robots.iter().map(|robot| &robot["goals"]).chain([&report["goals"]]);
+    let goals = robots.iter().map(|robot| &robot["goals"]);
     let reached = goals.filter_map(Value::as_array).flatten();
     let reached = reached.filter(|goal| goal["is_reached"] == true).count();
     let errors: Vec<f64> =

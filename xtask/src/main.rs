@@ -51,6 +51,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand, ValueEnum};
 
+use crate::crowds::CrowdExperiment;
 use crate::determinism::DebugProgram;
 use crate::step::{Failed, cargo, run, timed};
 
@@ -237,6 +238,9 @@ enum Task {
         /// Run the office in place of the experiments
         #[arg(long)]
         office: bool,
+        /// Measure AMCL, SLAM and costmaps of a robot among people in place of the experiments
+        #[arg(long, conflicts_with = "office")]
+        accuracy: bool,
     },
     /// Generate the pictures of the documentation
     Pictures,
@@ -396,7 +400,9 @@ fn perform(task: &Task) -> Result<(), Failed> {
             every: *every,
             program: program.clone(),
         }),
-        Task::Crowds { office } => crowds::run_experiments(*office),
+        Task::Crowds { office: true, .. } => crowds::run_experiment(CrowdExperiment::Office),
+        Task::Crowds { accuracy: true, .. } => crowds::run_experiment(CrowdExperiment::Accuracy),
+        Task::Crowds { .. } => crowds::run_experiment(CrowdExperiment::Published),
         Task::Soak { hours: Some(hours) } => soak::kbot(Some(*hours)),
         Task::Soak { hours: None } => costmap::soak().and_then(|()| soak::kbot(None)),
         Task::Barn { worlds, seeds, every, twice, jobs } => {
