@@ -1,6 +1,6 @@
 //! Accuracy of AMCL, SLAM and costmaps among people: a robot drives through the warehouse with 0 to 200 of them.
 //!
-//! `cargo xtask crowds --accuracy` prints the tables.
+//! `cargo xtask crowds --accuracy` prints the tables; the argument `amcl` or `slam` chooses one.
 #![allow(
     clippy::print_stdout,
     clippy::disallowed_methods,
@@ -13,9 +13,10 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use periplus_geometry::{Pose2, Stream};
-use periplus_graph::{Mailbox, Qos};
+use periplus_graph::{Mailbox, Publisher, Qos};
 use periplus_grid::{OccupancyGrid, occupancy, squared_distances};
 use periplus_maps::{Distro, Saving, render};
+use periplus_msgs::geometry_msgs::PoseWithCovarianceStamped;
 use periplus_msgs::nav_msgs::OccupancyGrid as GridMessage;
 use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_msgs::vision_msgs::Detection3DArray;
@@ -90,7 +91,12 @@ fn main() {
     let folder = std::env::temp_dir().join(format!("periplus-people-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
     let saved = write_map(&folder, &map);
-    for (estimator, name) in [(Estimator::Amcl, "AMCL"), (Estimator::Slam, "SLAM")] {
+    let wanted = std::env::args().nth(1);
+    let all = [(Estimator::Amcl, "AMCL"), (Estimator::Slam, "SLAM")];
+    for (estimator, name) in all
+        .into_iter()
+        .filter(|(_, name)| wanted.as_ref().is_none_or(|wanted| wanted.eq_ignore_ascii_case(name)))
+    {
         println!(
             "\n| people | {name}: mean error [m] | largest [m] | people in range that are marked | marked cells without cause | goals | driven [m] |\n\
              |---|---|---|---|---|---|---|"
@@ -196,11 +202,16 @@ struct PeopleTask {
     fixed: Mailbox<TFMessage>,
     people: Mailbox<Detection3DArray>,
     costmap: Mailbox<GridMessage>,
+    /// Pose from which AMCL starts, until it is published.
+    initial: Option<Publisher<PoseWithCovarianceStamped>>,
     frames: Frames,
     walls: OccupancyGrid,
     /// Squared distances to walls of the map \[cells²\].
     squared_cells: Vec<f32>,
-    world_from_map: Pose2,
+    /// Pose of the map in the world: for SLAM such that the first estimate has no error.
+    world_from_map: Option<Pose2>,
+    /// Goals in the world, until they are sent.
+    given: Vec<Pose2>,
     next_ns: i64,
     last: Pose2,
     scores: Scores,
@@ -209,18 +220,17 @@ struct PeopleTask {
 impl PeopleTask {
     fn new(session: &mut SimulationSession, estimator: Estimator, walls: OccupancyGrid) -> Self {
         let navigation = session.take_navigation().pop().unwrap();
-        // The map of SLAM begins at the robot.
-        let world_from_map = if estimator == Estimator::Amcl { Pose2::IDENTITY } else { START };
         let floor = FreeFloor::new(&walls, RADIUS_M);
         let cells = floor.reachable_from(floor.start_cell(START).unwrap());
         let goal = |number: u64| {
             let mut stream = Stream::keyed(0, "goals among people", number);
             let (x_m, y_m) =
                 walls.info.centre_of(cells[(stream.unit() * cells.len() as f64) as usize]);
-            world_from_map.inverse() * Pose2::new(x_m, y_m, 0.0)
+            Pose2::new(x_m, y_m, 0.0)
         };
-        let given = (0..GOAL_COUNT).map(goal).collect();
-        let goals = GoalDriver::new(session.graph(), &navigation.global_frame(), given).unwrap();
+        let given: Vec<Pose2> = (0..GOAL_COUNT).map(goal).collect();
+        let goals =
+            GoalDriver::new(session.graph(), &navigation.global_frame(), Vec::new()).unwrap();
         let node = goals.node().clone();
         let distances = squared_distances(&walls, |value| *value == occupancy::OCCUPIED);
         Self {
@@ -228,12 +238,15 @@ impl PeopleTask {
             fixed: node.mailbox("/tf_static", Qos::latched(100)).unwrap(),
             people: node.mailbox("/people", Qos::reliable(1)).unwrap(),
             costmap: node.mailbox("/local_costmap/costmap", Qos::latched(1)).unwrap(),
+            initial: (estimator == Estimator::Amcl)
+                .then(|| node.publisher("/initialpose", Qos::reliable(1)).unwrap()),
             frames: Frames::default(),
             squared_cells: distances.cells.iter().map(|it| *it as f32).collect(),
             navigation,
             goals,
             walls,
-            world_from_map,
+            world_from_map: (estimator == Estimator::Amcl).then_some(Pose2::IDENTITY),
+            given,
             next_ns: COMPARISON_PERIOD_NS,
             last: START,
             scores: Scores::default(),
@@ -261,7 +274,13 @@ impl PeopleTask {
             }
         }
         if let Some(map_from_base) = self.newest("map", "base_link") {
-            let estimate = self.world_from_map * map_from_base;
+            let world_from_map = *self
+                .world_from_map
+                .get_or_insert_with(|| world_from_base * map_from_base.inverse());
+            for goal in self.given.drain(..) {
+                self.goals.push(world_from_map.inverse() * goal);
+            }
+            let estimate = world_from_map * map_from_base;
             self.scores.errors_m.push(distance_m(estimate, world_from_base));
         }
         let people: Vec<[f64; 2]> = self
@@ -351,13 +370,25 @@ impl SessionTask for PeopleTask {
         let Some(world_from_base) = simulation.robot_pose().map(Pose2::from) else {
             return Tick::End;
         };
+        if let Some(initial) = self.initial.take() {
+            let mut message = PoseWithCovarianceStamped::default();
+            message.header.frame_id = "map".into();
+            message.pose.pose = periplus_tf_ros::pose(START);
+            // As RViz publishes it: 0.5 m and 15 degrees.
+            for (index, variance) in [(0, 0.25), (7, 0.25), (35, 0.068_538_9)] {
+                message.pose.covariance[index] = variance;
+            }
+            initial.publish(message);
+        }
         self.scores.length_m += distance_m(self.last, world_from_base);
         self.last = world_from_base;
         if simulation.time_ns() >= self.next_ns {
             self.next_ns += COMPARISON_PERIOD_NS;
             self.compare(world_from_base);
         }
-        self.goals.spin_once(simulation.time_ns(), || self.navigation.obstacle());
-        if self.goals.is_done() { Tick::End } else { Tick::Go }
+        if self.given.is_empty() {
+            self.goals.spin_once(simulation.time_ns(), || self.navigation.obstacle());
+        }
+        if self.given.is_empty() && self.goals.is_done() { Tick::End } else { Tick::Go }
     }
 }
