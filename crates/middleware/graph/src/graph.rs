@@ -251,8 +251,11 @@ impl Graph {
     ///
     /// Set this before the nodes, topics and services of these namespaces are created: those that exist stay outside.
     pub fn run_in_parallel(&self, namespaces: &[String], threads: usize) {
-        lock(&self.0.registry).namespaces = ParallelNamespace::all(namespaces);
-        lock(&self.0.turn).workers = Workers::new(threads.saturating_sub(1));
+        let namespaces = ParallelNamespace::all(namespaces);
+        // The thread that advances time is one of them, and each namespace runs on one at a time.
+        let helpers = threads.min(namespaces.len()).saturating_sub(1);
+        lock(&self.0.registry).namespaces = namespaces;
+        lock(&self.0.turn).workers = Workers::new(helpers);
     }
 
     /// Runs work of several namespaces, given by their full names: that in namespaces of [`Graph::run_in_parallel`] at the
