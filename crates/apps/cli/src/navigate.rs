@@ -18,7 +18,8 @@ use periplus_nav_nodes::slam_toolbox::Program;
 use periplus_os::Stopwatch;
 use periplus_session::nodes::{
     EstimatorRequest, GoalDriver, GoalOutcome, MappingRequest, MappingSource, Navigation,
-    NavigationDefaults, NavigationRequest, PathController, PlanningMap, RobotBase, slam_parameters,
+    NavigationDefaults, NavigationRequest, PathController, PlanningMap, RobotBase,
+    initial_pose_message, slam_parameters,
 };
 use periplus_session::{
     PageContext, ProgressLine, RunSettings, SessionBuilder, SessionTask, SimulationSession, stop,
@@ -416,10 +417,13 @@ impl NavigateTask {
         let given = options.all_goals(session.simulation(), initial)?;
         let navigation = session.take_navigation().pop().unwrap_or_default();
         let frame = navigation.global_frame();
-        // The map of SLAM begins at the robot.
+        // The frame of a map of SLAM is the odometry frame of the start.
+        let frame_from_start =
+            session.profile().map_or(Pose2::IDENTITY, |profile| profile.odom_from_start);
         let in_frame = |goal: &Pose2| match options.planning_map() {
-            PlanningMap::Growing => start.inverse() * *goal,
-            PlanningMap::Known | PlanningMap::Absent => *goal,
+            PlanningMap::Growing => frame_from_start * start.inverse() * *goal,
+            PlanningMap::Known => *goal,
+            PlanningMap::Absent => frame_from_start * *goal,
         };
         let poses = given.iter().map(in_frame).collect();
         let goals = GoalDriver::new(session.graph(), &frame, poses).map_err(CliError::failed)?;
@@ -461,14 +465,7 @@ impl NavigateTask {
 impl SessionTask for NavigateTask {
     fn before_step(&mut self, simulation: &mut Simulation, _line: &ProgressLine) -> Tick {
         if let Some((publisher, pose)) = self.initial_pose.take() {
-            let mut message = PoseWithCovarianceStamped::default();
-            message.header.frame_id = "map".into();
-            message.pose.pose = periplus_tf_ros::pose(pose);
-            // As RViz publishes it: 0.5 m and 15 degrees.
-            for (index, variance) in [(0, 0.25), (7, 0.25), (35, 0.068_538_9)] {
-                message.pose.covariance[index] = variance;
-            }
-            publisher.publish(message);
+            publisher.publish(initial_pose_message(pose));
         }
         if let Some(score) = &mut self.score {
             score.sample(simulation);

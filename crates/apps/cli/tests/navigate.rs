@@ -49,6 +49,21 @@ fn a_map_of_slam_begins_where_the_robot_stood() {
     assert!(dx_m.hypot(dy_m) < 0.4, "{report}");
 }
 
+/// Regression test: goals were converted as if the odometry frame began at the robot, also for odometry in the frame of the
+/// world. The robot drove elsewhere, and the goal was reported as reached.
+#[test]
+fn goals_of_a_robot_with_odometry_in_the_world_are_where_the_user_put_them() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../..");
+    let world = root.join("worlds/demo_room.sdf");
+    let robot = root.join("benches/fleet_robot.urdf");
+    // 0.7 m ahead: relative to the start, and in the world.
+    for goal in [&["--no-map", "--goal=0.7,0,0"][..], &["--goal=0.614,1.136,0.5"]] {
+        let report = navigate_in(&world, &robot, &[&["--pose=0,0.8,0.5"], goal].concat());
+        let at = |index: usize| report["truth"]["end_pose"][index].as_f64().unwrap();
+        assert!((at(0) - 0.614).hypot(at(1) - 1.136) < 0.4, "{report}");
+    }
+}
+
 /// A robot of 0.5 m that moves in all directions.
 const SLIDER: &str = r#"<robot name="slider">
   <link name="base_link">

@@ -18,13 +18,13 @@ use periplus_grid::{OccupancyGrid, occupancy, squared_distances};
 use periplus_maps::{Distro, Saving, render};
 use periplus_msgs::geometry_msgs::PoseWithCovarianceStamped;
 use periplus_msgs::nav_msgs::OccupancyGrid as GridMessage;
-use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_msgs::vision_msgs::Detection3DArray;
 use periplus_nav_nodes::slam_toolbox::Program;
 use periplus_os::Stopwatch;
 use periplus_session::nodes::{
     EstimatorRequest, GoalDriver, GoalOutcome, MappingRequest, MappingSource, Navigation,
-    NavigationDefaults, NavigationRequest, PlanningMap, slam_parameters,
+    NavigationDefaults, NavigationRequest, PlanningMap, RobotPose, initial_pose_message,
+    slam_parameters,
 };
 use periplus_session::{
     ProgressLine, RunSettings, SessionBuilder, SessionTask, SimulationSession, terminal,
@@ -33,8 +33,6 @@ use periplus_sim::{
     AssetFiles, FreeFloor, MapDrawing, Options, PeopleFile, PlacementPose, RobotPlacement,
     Simulation, Tick, compose,
 };
-use periplus_tf::TransformKind;
-use periplus_tf_ros::Frames;
 
 /// Numbers of people in the world.
 const COUNTS: [usize; 4] = [0, 10, 50, 200];
@@ -198,13 +196,11 @@ fn run(
 struct PeopleTask {
     navigation: Navigation,
     goals: GoalDriver,
-    moving: Mailbox<TFMessage>,
-    fixed: Mailbox<TFMessage>,
+    pose: RobotPose,
     people: Mailbox<Detection3DArray>,
     costmap: Mailbox<GridMessage>,
     /// Pose from which AMCL starts, until it is published.
     initial: Option<Publisher<PoseWithCovarianceStamped>>,
-    frames: Frames,
     walls: OccupancyGrid,
     /// Squared distances to walls of the map \[cells²\].
     squared_cells: Vec<f32>,
@@ -234,13 +230,11 @@ impl PeopleTask {
         let node = goals.node().clone();
         let distances = squared_distances(&walls, |value| *value == occupancy::OCCUPIED);
         Self {
-            moving: node.mailbox("/tf", Qos::reliable(500)).unwrap(),
-            fixed: node.mailbox("/tf_static", Qos::latched(100)).unwrap(),
+            pose: RobotPose::new(&node, "base_link").unwrap(),
             people: node.mailbox("/people", Qos::reliable(1)).unwrap(),
             costmap: node.mailbox("/local_costmap/costmap", Qos::latched(1)).unwrap(),
             initial: (estimator == Estimator::Amcl)
                 .then(|| node.publisher("/initialpose", Qos::reliable(1)).unwrap()),
-            frames: Frames::default(),
             squared_cells: distances.cells.iter().map(|it| *it as f32).collect(),
             navigation,
             goals,
@@ -259,21 +253,9 @@ impl PeopleTask {
         self.scores
     }
 
-    /// Newest transform, as a pose on the floor.
-    fn newest(&self, parent: &str, child: &str) -> Option<Pose2> {
-        self.frames.at(parent, child, 0).ok().map(|(pose, _)| Pose2::from(pose))
-    }
-
     /// Compares pose and costmap with the truth.
     fn compare(&mut self, world_from_base: Pose2) {
-        for (mailbox, kind) in
-            [(&self.fixed, TransformKind::Fixed), (&self.moving, TransformKind::Moving)]
-        {
-            for message in mailbox.drain() {
-                self.frames.take(&message, kind);
-            }
-        }
-        if let Some(map_from_base) = self.newest("map", "base_link") {
+        if let Some(map_from_base) = self.pose.newest_in("map") {
             let world_from_map = *self
                 .world_from_map
                 .get_or_insert_with(|| world_from_base * map_from_base.inverse());
@@ -290,7 +272,7 @@ impl PeopleTask {
             .flat_map(|boxes| &boxes.detections)
             .map(|it| [it.bbox.center.position.x, it.bbox.center.position.y])
             .collect();
-        let odom_from_base = self.newest("odom", "base_link");
+        let odom_from_base = self.pose.newest_in("odom");
         if let (Some(costmap), Some(odom_from_base)) = (self.costmap.latest(), odom_from_base) {
             let world_from_odom = world_from_base * odom_from_base.inverse();
             self.compare_costmap(&costmap, world_from_odom, world_from_base, &people);
@@ -371,14 +353,7 @@ impl SessionTask for PeopleTask {
             return Tick::End;
         };
         if let Some(initial) = self.initial.take() {
-            let mut message = PoseWithCovarianceStamped::default();
-            message.header.frame_id = "map".into();
-            message.pose.pose = periplus_tf_ros::pose(START);
-            // As RViz publishes it: 0.5 m and 15 degrees.
-            for (index, variance) in [(0, 0.25), (7, 0.25), (35, 0.068_538_9)] {
-                message.pose.covariance[index] = variance;
-            }
-            initial.publish(message);
+            initial.publish(initial_pose_message(START));
         }
         self.scores.length_m += distance_m(self.last, world_from_base);
         self.last = world_from_base;

@@ -7,6 +7,7 @@ mod mapping;
 mod namespace;
 mod navigation;
 pub(crate) mod profile;
+mod robot_pose;
 mod selection;
 
 use std::io::{self, Write};
@@ -27,6 +28,7 @@ pub use navigation::{
     NavigationRequest, PathController, PlanningMap, RobotBase, pose_text,
 };
 pub use profile::RobotProfile;
+pub use robot_pose::{RobotPose, initial_pose_message};
 pub use selection::EstimatorSelection;
 
 use crate::error::RunError;

@@ -3,16 +3,13 @@
 use std::io::{self, Write};
 
 use periplus_geometry::Pose2;
-use periplus_graph::{GraphError, Mailbox, Node, Qos};
+use periplus_graph::GraphError;
 use periplus_grid::OccupancyGrid;
-use periplus_msgs::tf2_msgs::TFMessage;
 use periplus_session::nodes::{
-    Estimators, GoalDriver, GoalOutcome, GoalReport, RobotProfile, pose_text,
+    Estimators, GoalDriver, GoalOutcome, GoalReport, RobotPose, RobotProfile, pose_text,
 };
 use periplus_session::{ProgressLine, SessionTask, SimulationSession};
 use periplus_sim::{FleetMember, FleetScore, Simulation, Tick};
-use periplus_tf::TransformKind;
-use periplus_tf_ros::Frames;
 use serde_json::{Value, json};
 
 use super::random_goals::GoalAreas;
@@ -21,9 +18,6 @@ use crate::error::CliError;
 
 /// Time between two comparisons of a robot's pose with its estimate \[ns\].
 const COMPARISON_PERIOD_NS: i64 = 1_000_000_000;
-
-/// Number of messages with transforms between two comparisons that are kept.
-const TRANSFORM_DEPTH: usize = 500;
 
 /// Navigation of several robots, each to its own goals.
 pub(super) struct FleetTask {
@@ -39,42 +33,9 @@ struct RobotTask {
     estimators: Estimators,
     goals: GoalDriver,
     given: Vec<Pose2>,
-    transforms: Transforms,
+    pose: RobotPose,
+    map_frame: String,
     error: EstimateError,
-}
-
-/// Transforms of a robot.
-struct Transforms {
-    moving: Mailbox<TFMessage>,
-    fixed: Mailbox<TFMessage>,
-    frames: Frames,
-    map: String,
-    base: String,
-}
-
-impl Transforms {
-    fn new(node: &Node, map: String, base: String) -> Result<Self, GraphError> {
-        Ok(Self {
-            moving: node.mailbox("/tf", Qos::reliable(TRANSFORM_DEPTH))?,
-            fixed: node.mailbox("/tf_static", Qos::latched(TRANSFORM_DEPTH))?,
-            frames: Frames::default(),
-            map,
-            base,
-        })
-    }
-
-    /// Newest pose on the map.
-    fn map_from_base(&mut self) -> Option<Pose2> {
-        for (mailbox, kind) in
-            [(&self.fixed, TransformKind::Fixed), (&self.moving, TransformKind::Moving)]
-        {
-            for message in mailbox.drain() {
-                self.frames.take(&message, kind);
-            }
-        }
-        let (map_from_base, _) = self.frames.at(&self.map, &self.base, 0).ok()?;
-        Some(Pose2::from(map_from_base))
-    }
 }
 
 /// Distances of estimates from the truth.
@@ -142,7 +103,8 @@ impl FleetTask {
     /// Compares the estimates of all robots with the truth.
     fn compare(&mut self) {
         for (robot, member) in self.robots.iter_mut().zip(&self.score.robots) {
-            if let (Some(estimate), Some(truth)) = (robot.transforms.map_from_base(), member.pose) {
+            let estimate = robot.pose.newest_in(&robot.map_frame);
+            if let (Some(estimate), Some(truth)) = (estimate, member.pose) {
                 robot.error.add(libm::hypot(estimate.x_m - truth.x_m, estimate.y_m - truth.y_m));
             }
         }
@@ -214,11 +176,11 @@ impl RobotTask {
         start: Pose2,
         given: Vec<Pose2>,
     ) -> Result<Self, GraphError> {
-        let (graph, frame) = (session.graph(), estimators.navigation.global_frame());
-        let goals = GoalDriver::within(graph, &profile.namespace, &frame, given.clone())?;
-        let transforms = Transforms::new(goals.node(), frame, profile.base().to_owned())?;
+        let (graph, map_frame) = (session.graph(), estimators.navigation.global_frame());
+        let goals = GoalDriver::within(graph, &profile.namespace, &map_frame, given.clone())?;
+        let pose = RobotPose::new(goals.node(), profile.base())?;
         let error = EstimateError::default();
-        Ok(Self { name, start, estimators, goals, given, transforms, error })
+        Ok(Self { name, start, estimators, goals, given, pose, map_frame, error })
     }
 
     fn reached(&self) -> usize {

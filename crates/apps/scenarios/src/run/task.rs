@@ -10,7 +10,9 @@ use periplus_grid::{GridInfo, OccupancyGrid};
 use periplus_msgs::builtin_interfaces::Time;
 use periplus_msgs::geometry_msgs::PoseWithCovarianceStamped;
 use periplus_msgs::nav_msgs::OccupancyGrid as MapMessage;
-use periplus_session::nodes::{GoalDriver, Localization, Navigation, PlanningMap};
+use periplus_session::nodes::{
+    GoalDriver, Localization, Navigation, PlanningMap, initial_pose_message,
+};
 use periplus_session::{ProgressLine, RunEnd, SessionTask, SimulationSession};
 use periplus_sim::{RunProgress, Simulation, Tick};
 use serde_json::Value;
@@ -24,9 +26,6 @@ use super::truth::{Truth, TruthRecord, grid_of};
 use crate::error::ScenarioError;
 use crate::file::{EventAction, EventTrigger, Scenario, planar_pose};
 use crate::report::{GoalEnd, RunOutcome};
-
-/// Variances of the initial pose: 0.5 m and 15 degrees, as RViz publishes it.
-const INITIAL_VARIANCES: [(usize, f64); 3] = [(0, 0.25), (7, 0.25), (35, 0.068_538_9)];
 
 /// Record of a run, for the assertions.
 #[derive(Clone, Debug, Default)]
@@ -77,7 +76,7 @@ impl ScenarioTask {
         let node = session.graph().node(NodeSettings::new("periplus_scenario").keep_names())?;
         let grid = grid_of(scenario);
         let start = scenario.start();
-        let initial = initial_pose(scenario);
+        let initial = initial_pose(scenario, session);
         // A true map has the frame of the world; other maps begin where the initial pose puts them.
         let is_true = scenario.nodes.localization.as_ref().is_some_and(|it| it.map == TRUE_MAP);
         let world_from_map = if is_true { Pose2::IDENTITY } else { start * initial.inverse() };
@@ -202,7 +201,7 @@ impl ScenarioTask {
 impl SessionTask for ScenarioTask {
     fn before_step(&mut self, simulation: &mut Simulation, _line: &ProgressLine) -> Tick {
         if let Some((publisher, pose)) = self.initial_pose.take() {
-            publisher.publish(initial_message(pose));
+            publisher.publish(initial_pose_message(pose));
         }
         let mut has_changed = self.injector.update(simulation);
         has_changed |= self.events.update(&mut EventTargets {
@@ -227,13 +226,13 @@ impl SessionTask for ScenarioTask {
 }
 
 /// Pose of the robot in the map at the start.
-fn initial_pose(scenario: &Scenario) -> Pose2 {
+fn initial_pose(scenario: &Scenario, session: &SimulationSession) -> Pose2 {
     match &scenario.nodes.localization {
         Some(params) if !params.initial_pose.is_empty() => planar_pose(&params.initial_pose),
         // The frames of the map and of the world are equal.
         Some(_) => scenario.start(),
-        // A map of SLAM and the odometry frame begin at the robot.
-        None => Pose2::IDENTITY,
+        // The frame of a map of SLAM is the odometry frame of the start.
+        None => session.profile().map_or(Pose2::IDENTITY, |profile| profile.odom_from_start),
     }
 }
 
@@ -268,16 +267,6 @@ fn localize(
     let localization = Localization::from_files(session.graph(), &files, profile.as_ref())?;
     let publisher = node.publisher("/initialpose", Qos::reliable(1))?;
     Ok((map, Some(localization), Some(publisher)))
-}
-
-fn initial_message(pose: Pose2) -> PoseWithCovarianceStamped {
-    let mut message = PoseWithCovarianceStamped::default();
-    message.header.frame_id = "map".into();
-    message.pose.pose = periplus_tf_ros::pose(pose);
-    for (index, variance) in INITIAL_VARIANCES {
-        message.pose.covariance[index] = variance;
-    }
-    message
 }
 
 /// Topics whose messages are recorded for assertions and events.

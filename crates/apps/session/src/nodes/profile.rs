@@ -11,6 +11,7 @@ use periplus_ekf::Settings;
 use periplus_geometry::Pose2;
 use periplus_graph::{Graph, GraphError, Mailbox, Node, Qos, TopicInfo};
 use periplus_msgs::Message;
+use periplus_msgs::geometry_msgs::{Point, Pose, Transform, Vector3};
 use periplus_msgs::nav_msgs::Odometry;
 use periplus_msgs::sensor_msgs::{Imu, LaserScan};
 use periplus_msgs::tf2_msgs::TFMessage;
@@ -55,6 +56,9 @@ pub struct RobotProfile {
     pub base_frame: Option<String>,
     /// True if a transform connects `base_frame` to `odom_frame`.
     pub has_odom_transform: bool,
+    /// Pose at the start in the odometry frame. Odometry of Gazebo Classic with `odometry_source` 1 has the frame of the
+    /// world; else the identity.
+    pub odom_from_start: Pose2,
     /// Radius of a circle around the robot \[m\].
     pub radius_m: f64,
     /// Convex outline of the robot in its base frame \[m\]; none if its collisions do not define one.
@@ -70,8 +74,8 @@ struct DetectionSubscriptions {
     odometry: Option<Mailbox<Odometry>>,
     scan: Option<Mailbox<LaserScan>>,
     profile: RobotProfile,
-    /// Parent of each frame.
-    parents: BTreeMap<String, String>,
+    /// Parent of each frame, and the first pose in it.
+    parents: BTreeMap<String, (String, Pose2)>,
 }
 
 impl RobotProfile {
@@ -304,7 +308,10 @@ impl DetectionSubscriptions {
         for message in self.moving.drain().into_iter().chain(self.fixed.drain()) {
             for edge in &message.transforms {
                 let plain = |frame: &str| frame.trim_start_matches('/').to_owned();
-                self.parents.insert(plain(&edge.child_frame_id), plain(&edge.header.frame_id));
+                let (child, parent) = (plain(&edge.child_frame_id), plain(&edge.header.frame_id));
+                if self.parents.get(&child).is_none_or(|(known, _)| *known != parent) {
+                    self.parents.insert(child, (parent, planar(&edge.transform)));
+                }
             }
         }
         if let Some(odometry) = self.odometry.as_ref().and_then(Mailbox::latest) {
@@ -328,15 +335,17 @@ impl DetectionSubscriptions {
         let odom = self.profile.odom_frame.clone().filter(|frame| !frame.is_empty());
         let odom = odom.unwrap_or_else(|| "odom".to_owned());
         let mut base = self.profile.base_frame.clone().filter(|frame| !frame.is_empty());
-        if let Some((child, _)) = self.parents.iter().find(|(_, parent)| **parent == odom) {
+        let of_odom = self.parents.iter().find(|(_, (parent, _))| *parent == odom);
+        if let Some((child, (_, first))) = of_odom {
             self.profile.has_odom_transform = true;
+            self.profile.odom_from_start = *first;
             base = Some(child.clone());
         } else if let Some(start) = base.take() {
             // All frames of the robot are descendants of its root frame.
             let mut top = start;
             for _ in 0..MAX_DEPTH {
                 match self.parents.get(&top) {
-                    Some(parent) => top.clone_from(parent),
+                    Some((parent, _)) => top.clone_from(parent),
                     None => break,
                 }
             }
@@ -346,6 +355,13 @@ impl DetectionSubscriptions {
         self.profile.base_frame = base;
         self.profile
     }
+}
+
+/// Transform as a pose on the floor; the identity if it is malformed.
+fn planar(transform: &Transform) -> Pose2 {
+    let Vector3 { x, y, z } = transform.translation;
+    let orientation = transform.rotation.clone();
+    periplus_tf_ros::pose2(&Pose { position: Point { x, y, z }, orientation }).unwrap_or_default()
 }
 
 fn mailbox<M: Message>(node: &Node, topic: Option<&str>) -> Result<Option<Mailbox<M>>, GraphError> {
