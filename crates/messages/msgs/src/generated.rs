@@ -27,6 +27,9 @@ pub mod nav_2d_msgs;
 pub mod nav_msgs;
 pub mod radar_msgs;
 pub mod rcl_interfaces;
+pub mod rmf_door_msgs;
+pub mod rmf_fleet_msgs;
+pub mod rmf_lift_msgs;
 pub mod robot_localization;
 pub mod ros_gz_interfaces;
 pub mod rosgraph_msgs;
@@ -310,6 +313,20 @@ crate::sources! {
     "rcl_interfaces/srv/SetLoggerLevels.srv"
     "rcl_interfaces/srv/SetParameters.srv"
     "rcl_interfaces/srv/SetParametersAtomically.srv"
+    "rmf_door_msgs/msg/DoorMode.msg"
+    "rmf_door_msgs/msg/DoorRequest.msg"
+    "rmf_door_msgs/msg/DoorState.msg"
+    "rmf_fleet_msgs/msg/DestinationRequest.msg"
+    "rmf_fleet_msgs/msg/FleetState.msg"
+    "rmf_fleet_msgs/msg/Location.msg"
+    "rmf_fleet_msgs/msg/ModeParameter.msg"
+    "rmf_fleet_msgs/msg/ModeRequest.msg"
+    "rmf_fleet_msgs/msg/PathRequest.msg"
+    "rmf_fleet_msgs/msg/PauseRequest.msg"
+    "rmf_fleet_msgs/msg/RobotMode.msg"
+    "rmf_fleet_msgs/msg/RobotState.msg"
+    "rmf_lift_msgs/msg/LiftRequest.msg"
+    "rmf_lift_msgs/msg/LiftState.msg"
     "robot_localization/srv/FromLL.srv"
     "robot_localization/srv/FromLLArray.srv"
     "robot_localization/srv/SetDatum.srv"
@@ -970,6 +987,20 @@ crate::list_messages! {
     rcl_interfaces::SetParametersResponse
     rcl_interfaces::SetParametersAtomicallyRequest
     rcl_interfaces::SetParametersAtomicallyResponse
+    rmf_door_msgs::DoorMode
+    rmf_door_msgs::DoorRequest
+    rmf_door_msgs::DoorState
+    rmf_fleet_msgs::DestinationRequest
+    rmf_fleet_msgs::FleetState
+    rmf_fleet_msgs::Location
+    rmf_fleet_msgs::ModeParameter
+    rmf_fleet_msgs::ModeRequest
+    rmf_fleet_msgs::PathRequest
+    rmf_fleet_msgs::PauseRequest
+    rmf_fleet_msgs::RobotMode
+    rmf_fleet_msgs::RobotState
+    rmf_lift_msgs::LiftRequest
+    rmf_lift_msgs::LiftState
     robot_localization::FromLLRequest
     robot_localization::FromLLResponse
     robot_localization::FromLLArrayRequest
