@@ -1,7 +1,7 @@
 //! Tables of all known plugins.
 //!
 //! Names, defaults and meanings are those of the plugins' own sources: `gazebo_ros_pkgs` (branches
-//! `ros2` and `noetic-devel`), `gazebo-classic` 11, `gz-sim` 8 and `gz-gui` 8, and their
+//! `ros2` and `noetic-devel`), `gazebo-classic` 11, `gz-sim` 8, `gz-gui` 8 and `rmf_simulation` 2.4, and their
 //! documentation. A parameter without default either has none or takes it from elsewhere, as its
 //! description states.
 
@@ -11,6 +11,7 @@ mod gz;
 mod gz_drive;
 mod gz_effect;
 mod gz_world;
+mod open_rmf;
 mod ros1;
 mod ros1_camera;
 mod ros1_drive;
@@ -35,6 +36,7 @@ pub fn known() -> impl Iterator<Item = &'static PluginSpec> {
         gz_effect::PLUGINS,
         gz_world::PLUGINS,
         gui::PLUGINS,
+        open_rmf::PLUGINS,
     ]
     .into_iter()
     .flatten()

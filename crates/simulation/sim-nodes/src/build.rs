@@ -3,10 +3,10 @@
 use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_graph::{Graph, GraphError};
 use periplus_plugin_specs::{interpret, model_sites, world_sites};
-use periplus_scene::World;
+use periplus_scene::{Model, World};
 
 use crate::states::{JointStatePublisher, RobotFrames, triggered};
-use crate::{Device, DeviceContext, drives, sensors};
+use crate::{Device, DeviceContext, buildings, drives, sensors};
 
 /// Builds the devices of a model: first drives, then sensors, then publishers of joint states and
 /// frames. Problems are reported, and valid devices are built. `description` is the URDF of the
@@ -48,11 +48,13 @@ pub fn devices(
     devices
 }
 
-/// Builds the devices of a world, besides those of its models.
+/// Builds the devices of a world, besides those of its models: what connects models, such as lifts with their doors, is
+/// one device.
 #[must_use]
 pub fn world_devices(
     graph: &Graph,
     world: &World,
+    models: &[&Model],
     diagnostics: &mut Diagnostics,
 ) -> Vec<Box<dyn Device>> {
     let mut devices: Vec<Box<dyn Device>> = Vec::new();
@@ -64,6 +66,7 @@ pub fn world_devices(
             devices.push(Box::new(device));
         }
     }
+    devices.extend(buildings::build(graph, world, models, diagnostics));
     devices
 }
 

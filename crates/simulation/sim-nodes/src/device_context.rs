@@ -8,7 +8,7 @@ use periplus_plugin_specs::PluginSite;
 use periplus_scene as scene;
 use periplus_sensors::Quirks;
 
-use crate::ParameterFiles;
+use crate::{Floor, ParameterFiles};
 
 /// Environment of a device: graph, world, model and run options.
 #[derive(Clone, Copy)]
@@ -45,6 +45,8 @@ pub struct DeviceContext<'a> {
     pub starts_controllers: bool,
     /// True if `/tf` of Gazebo's plugins is that of ROS; false where the bridges of a launch file leave it out.
     pub bridges_transforms: bool,
+    /// Floors of the building, the lowest first.
+    pub floors: &'a [Floor],
     /// Parameter files of controllers.
     pub parameter_files: &'a Arc<dyn ParameterFiles>,
 }

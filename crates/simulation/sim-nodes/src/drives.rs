@@ -19,6 +19,7 @@ mod pid;
 mod planar;
 mod rate_timer;
 mod rolling_mean;
+mod slotcar;
 mod tricycle;
 mod wheel_frames;
 
@@ -70,6 +71,7 @@ pub fn build(
         "gz-sim-joint-position-controller-system" => {
             boxed(joints::position_controller(context, diagnostics))
         }
+        "slotcar" => boxed(slotcar::build(context, diagnostics)),
         "gz_ros2_control-system" | "gazebo_ros2_control" | "gazebo_ros_control" => {
             boxed(control::build(context, diagnostics))
         }

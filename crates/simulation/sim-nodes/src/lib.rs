@@ -18,11 +18,12 @@
 //! let content = vec![topic("input"), topic("output")];
 //! let mut world = World::empty("room");
 //! world.plugins.push(Plugin { name, filename, content, origin: Origin::default() });
-//! let devices = world_devices(&Graph::new(), &world, &mut Diagnostics::new());
+//! let devices = world_devices(&Graph::new(), &world, &[], &mut Diagnostics::new());
 //! assert_eq!(devices.len(), 1);
 //! ```
 
 mod build;
+mod buildings;
 mod control;
 mod device;
 mod device_context;
@@ -33,6 +34,7 @@ pub mod states;
 mod views;
 
 pub use build::{devices, world_devices};
+pub use buildings::{Floor, floors_of};
 pub use control::{NoParameterFiles, ParameterFiles};
 pub use device::{Device, DeviceState, SenseContext, SensorMount, StepInterval};
 pub use device_context::DeviceContext;

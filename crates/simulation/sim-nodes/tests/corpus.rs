@@ -102,6 +102,7 @@ fn try_out(model: &scene::Model) -> Option<(String, Vec<f64>)> {
         publishes_joint_states: true,
         starts_controllers: true,
         bridges_transforms: true,
+        floors: &[],
         parameter_files: &files,
     };
     let mut diagnostics = Diagnostics::new();

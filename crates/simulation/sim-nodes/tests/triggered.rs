@@ -25,7 +25,7 @@ fn devices(graph: &Graph, inside: &str) -> (Vec<Box<dyn Device>>, Vec<String>) {
         origin: Origin::default(),
     });
     let mut found = Diagnostics::new();
-    let devices = world_devices(graph, &world, &mut found);
+    let devices = world_devices(graph, &world, &[], &mut found);
     (devices, found.iter().map(|finding| finding.message.clone()).collect())
 }
 

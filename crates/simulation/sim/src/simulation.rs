@@ -21,7 +21,8 @@ use periplus_scene as scene;
 use periplus_sensors::Quirks;
 use periplus_sim_nodes::states::ClockPublisher;
 use periplus_sim_nodes::{
-    Device, DeviceContext, ParameterFiles, SenseContext, SensorMount, StepInterval, Views,
+    Device, DeviceContext, Floor, ParameterFiles, SenseContext, SensorMount, StepInterval, Views,
+    floors_of, world_devices,
 };
 
 use crate::actors::RunningActor;
@@ -117,6 +118,8 @@ pub struct Simulation {
     pub(crate) motion: PhysicsWorld,
     pub(crate) running: Vec<RunningModel>,
     world_devices: Vec<Box<dyn Device>>,
+    /// Floors of the building.
+    floors: Vec<Floor>,
     pub(crate) views: Views,
     /// Actors of the world, which move by their scripts.
     actors: Vec<RunningActor>,
@@ -163,6 +166,7 @@ impl Simulation {
         let mut simulation = Self {
             step_ns: nanoseconds(step_s).max(MIN_STEP_NS),
             world_devices: Vec::new(),
+            floors: Vec::new(),
             has_new_seed: false,
             running: Vec::new(),
             world_file: WorldFile::new(composition),
@@ -191,8 +195,10 @@ impl Simulation {
                 .diagnostics
                 .push(Diagnostic::error("no-clock", error.to_string())),
         }
-        let devices =
-            periplus_sim_nodes::world_devices(&simulation.graph, &simulation.scene, &mut of_world);
+        let models: Vec<&scene::Model> =
+            composition.members.iter().map(|member| &member.model).collect();
+        simulation.floors = floors_of(&simulation.scene, &models);
+        let devices = world_devices(&simulation.graph, &simulation.scene, &models, &mut of_world);
         simulation.world_devices.extend(devices);
         for actor in &simulation.scene.actors {
             simulation.actors.push(RunningActor::new(actor, &mut simulation.views, &mut of_world));
@@ -413,6 +419,7 @@ impl Simulation {
             publishes_joint_states: self.options.publishes_joint_states,
             starts_controllers: self.options.starts_controllers,
             bridges_transforms: self.options.bridges_transforms,
+            floors: &self.floors,
             parameter_files: &parameter_files,
         };
         periplus_sim_nodes::devices(&setting, member.description.as_deref(), findings)

@@ -1,6 +1,7 @@
 //! Lookup by name.
 
 use super::PhysicsWorld;
+use crate::records::BodyKind;
 use crate::state::{JointId, LinkId, ModelId};
 
 impl PhysicsWorld {
@@ -68,6 +69,13 @@ impl PhysicsWorld {
     #[must_use]
     pub fn model_of(&self, link: LinkId) -> Option<ModelId> {
         self.records.model_of_link.get(link.0 as usize).map(|&model| ModelId(model))
+    }
+
+    /// Returns true for a model without bodies that can move.
+    #[must_use]
+    pub fn is_static(&self, model: ModelId) -> bool {
+        let kinds = self.records.bodies_of(model.0).map(|body| self.records.bodies[body].kind);
+        kinds.into_iter().all(|kind| kind == BodyKind::Fixed)
     }
 
     /// Returns all models in the order of adding, with their names.

@@ -240,6 +240,7 @@ fn setting<'a>(
         publishes_joint_states: true,
         starts_controllers: true,
         bridges_transforms: true,
+        floors: &[],
         parameter_files: &FILES,
     }
 }

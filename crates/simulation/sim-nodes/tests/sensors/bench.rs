@@ -96,6 +96,7 @@ impl Bench {
             publishes_joint_states: true,
             starts_controllers: true,
             bridges_transforms: true,
+            floors: &[],
             parameter_files: &files,
         };
         let mut diagnostics = Diagnostics::new();
