@@ -59,13 +59,13 @@ pub(crate) struct NavigateOptions {
     /// Goal [m, rad]: X,Y or X,Y,YAW; repeatable, in their order. In the frame of the map with `--map`; with SLAM in the
     /// frame of the world, if the robot stands at `--pose`; without a map relative to the start
     #[arg(long = "goal", value_name = "X,Y,YAW", value_parser = pose, allow_hyphen_values = true,
-        required_unless_present = "random_goals")]
+        required_unless_present_any = ["random_goals", "open_rmf"])]
     goals: Vec<Pose2>,
     /// Number of random goals that the robot can reach on the map, after those of `--goal`; they depend on `--seed`
     #[arg(long, value_name = "NUMBER", requires = "map")]
     random_goals: Option<usize>,
     /// Number of copies of the robot, each at a random start on the map
-    #[arg(long = "robots", value_name = "COUNT", value_parser = robot_count, requires_all = ["map", "random_goals"])]
+    #[arg(long = "robots", value_name = "COUNT", value_parser = robot_count, requires = "map")]
     robot_count: Option<usize>,
     /// Motion model: rigid bodies, or motion exactly as commanded on a flat floor
     #[arg(long, value_enum, default_value_t = Dynamics::Rigid)]
@@ -73,6 +73,10 @@ pub(crate) struct NavigateOptions {
     /// People who walk among the robots: their number, or a YAML file
     #[arg(long, value_name = "COUNT|FILE.yaml")]
     people: Option<String>,
+    /// Attach the robots to Open-RMF as this fleet: publish their states, and drive the paths that a fleet adapter
+    /// requests, until `--timeout`
+    #[arg(long, value_name = "FLEET")]
+    open_rmf: Option<String>,
     /// Controller, for the default parameters: `mppi`, which leads around obstacles, or `rpp`, regulated pure pursuit,
     /// which follows the path in a hundredth of the computing time [default: mppi, for several robots rpp]
     #[arg(long, value_enum, value_name = "NAME")]
@@ -203,6 +207,7 @@ pub(crate) fn run(options: &NavigateOptions, ros: Vec<String>) -> Result<ExitCod
         .recording(options.recorded.recording(options.record.as_deref()))
         .recording_truth(options.recorded.records_truth())
         .people(people)
+        .open_rmf(options.open_rmf.clone())
         .estimators(options.estimators()?)
         .ros2(options.ros2.map(Into::into))
         .ros1(options.ros1.reach())
@@ -265,10 +270,10 @@ impl NavigateOptions {
         if !self.is_fleet() {
             return Ok(());
         }
-        if self.map.is_none() || self.random_goals.is_none() {
+        if self.map.is_none() || self.random_goals.is_none() && self.open_rmf.is_none() {
             return Err(CliError::usage(
-                "several robots need a map, and random goals on it: `--map MAP.yaml --random-goals NUMBER`; `periplus \
-                 map draw WORLD` draws the map of a world",
+                "several robots need a map, and random goals on it (`--map MAP.yaml --random-goals NUMBER`) or a fleet \
+                 adapter that sends them paths (`--open-rmf FLEET`); `periplus map draw WORLD` draws the map of a world",
             ));
         }
         let single = [
@@ -405,6 +410,8 @@ struct NavigateTask {
     score: Option<DriveScore>,
     arrival: Option<ArrivalClock>,
     ends_at_collision: bool,
+    /// True if a fleet adapter may send more paths.
+    is_attached: bool,
 }
 
 impl NavigateTask {
@@ -444,8 +451,16 @@ impl NavigateTask {
             .arrival_radius
             .zip(in_world.last())
             .map(|(radius_m, goal)| ArrivalClock::new([goal.x_m, goal.y_m], radius_m));
-        let ends_at_collision = options.end_at_collision;
-        Ok(Self { navigation, given, goals, initial_pose, score, arrival, ends_at_collision })
+        Ok(Self {
+            navigation,
+            given,
+            goals,
+            initial_pose,
+            score,
+            arrival,
+            ends_at_collision: options.end_at_collision,
+            is_attached: options.open_rmf.is_some(),
+        })
     }
 
     fn collisions(&self) -> usize {
@@ -476,7 +491,8 @@ impl SessionTask for NavigateTask {
             clock.sample(simulation);
         }
         self.goals.spin_once(simulation.time_ns(), || self.navigation.obstacle());
-        if self.goals.is_done() || self.is_over() { Tick::End } else { Tick::Go }
+        let is_done = self.goals.is_done() && !self.is_attached;
+        if is_done || self.is_over() { Tick::End } else { Tick::Go }
     }
 
     fn after_step(&mut self, _progress: RunProgress) {}

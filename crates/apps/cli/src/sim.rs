@@ -52,6 +52,9 @@ pub(crate) struct SimOptions {
     /// file with goals, groups, doors and their model
     #[arg(long, value_name = "COUNT|FILE.yaml")]
     people: Option<String>,
+    /// Attach the slotcars of the world to Open-RMF: publish their states as this fleet
+    #[arg(long, value_name = "FLEET")]
+    open_rmf: Option<String>,
     /// Duration of the run in simulated seconds [default: until Ctrl-C]
     #[arg(long, value_name = "SECONDS", value_parser = positive)]
     duration: Option<f64>,
@@ -221,6 +224,7 @@ pub(crate) fn run(
         .computed(options.computed())
         .driver(driver)
         .people(people)
+        .open_rmf(options.open_rmf.clone())
         .estimators(options.selection().request(options.number_of_robots()))
         .ros2(options.ros2.map(Into::into))
         .ros1(options.ros1.reach())

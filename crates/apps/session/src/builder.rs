@@ -18,7 +18,7 @@ use crate::network::{
     GazeboConnection, GazeboSettings, Ros1Connection, Ros1Reach, Ros1Value, Ros2Connection,
     Ros2Reach,
 };
-use crate::nodes::{EstimatorRequest, Estimators, RobotProfile};
+use crate::nodes::{EstimatorRequest, Estimators, OpenRmfFleet, OpenRmfMember, RobotProfile};
 use crate::page::{Page, PageContext, PageSettings};
 use crate::session::{SessionParts, SimulationSession};
 use crate::terminal;
@@ -70,6 +70,7 @@ pub struct SessionBuilder {
     computed: Option<TopicFilter>,
     driver: Driver,
     people: Option<PeopleFile>,
+    open_rmf: Option<String>,
     estimators: Option<EstimatorRequest>,
     ros2: Option<Option<Ros2Reach>>,
     ros1: Option<Ros1Reach>,
@@ -96,6 +97,7 @@ impl SessionBuilder {
             computed: None,
             driver: Driver::default(),
             people: None,
+            open_rmf: None,
             estimators: None,
             ros2: None,
             ros1: None,
@@ -172,6 +174,13 @@ impl SessionBuilder {
     #[must_use]
     pub fn people(mut self, people: Option<PeopleFile>) -> Self {
         self.people = people;
+        self
+    }
+
+    /// Attaches the robots to Open-RMF as a fleet of this name.
+    #[must_use]
+    pub fn open_rmf(mut self, fleet: Option<String>) -> Self {
+        self.open_rmf = fleet;
         self
     }
 
@@ -252,6 +261,7 @@ impl SessionBuilder {
         let warnings = self.driver.join(&simulation).map_err(RunError::Script)?;
         terminal::print_findings(&warnings)?;
         let estimators = self.start_estimators(&simulation, request, &mut profiles)?;
+        let fleet = self.start_fleet(&simulation, &profiles, &estimators)?;
         let ros2 = self.connect_ros2(&simulation)?;
         let ros1 = self.connect_ros1(&simulation)?;
         let gazebo = self.connect_gazebo(&simulation, &mut services)?;
@@ -262,6 +272,7 @@ impl SessionBuilder {
             ros1,
             ros2,
             estimators,
+            _fleet: fleet,
             profiles,
             services,
             recorder,
@@ -310,6 +321,24 @@ impl SessionBuilder {
             terminal::print_findings(&simulation.graph().unused_arguments())?;
         }
         Ok(estimators)
+    }
+
+    /// Attaches the robots to Open-RMF; their names are those of their namespaces, or of the model of a single robot.
+    fn start_fleet(
+        &self,
+        simulation: &Simulation,
+        profiles: &[RobotProfile],
+        estimators: &[Estimators],
+    ) -> Result<Option<OpenRmfFleet>, RunError> {
+        let Some(fleet) = &self.open_rmf else { return Ok(None) };
+        let members = profiles.iter().zip(estimators).map(|(profile, estimators)| {
+            let only = || simulation.robot_name().unwrap_or("robot");
+            let namespace = Some(profile.namespace.name()).filter(|name| !name.is_empty());
+            let name = namespace.unwrap_or_else(only).to_owned();
+            OpenRmfMember { name, profile, estimators }
+        });
+        let started = OpenRmfFleet::start(simulation.graph(), fleet, members);
+        started.map(Some).map_err(|error| RunError::node("the fleet", error))
     }
 
     fn connect_gazebo(

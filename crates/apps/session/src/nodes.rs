@@ -6,6 +6,7 @@ mod localization;
 mod mapping;
 mod namespace;
 mod navigation;
+mod open_rmf;
 pub(crate) mod profile;
 mod robot_pose;
 mod selection;
@@ -27,6 +28,8 @@ pub use navigation::{
     Findings, GoalDriver, GoalOutcome, GoalReport, Navigation, NavigationDefaults,
     NavigationRequest, PathController, PlanningMap, RobotBase, pose_text,
 };
+pub use open_rmf::OpenRmfFleet;
+pub(crate) use open_rmf::OpenRmfMember;
 pub use profile::RobotProfile;
 pub use robot_pose::{RobotPose, initial_pose_message};
 pub use selection::EstimatorSelection;

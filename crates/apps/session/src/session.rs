@@ -15,7 +15,7 @@ use periplus_sim::{
 
 use crate::error::RunError;
 use crate::network::{GazeboConnection, Ros1Connection, Ros2Connection};
-use crate::nodes::{Estimators, MappingNode, Navigation, RobotProfile};
+use crate::nodes::{Estimators, MappingNode, Navigation, OpenRmfFleet, RobotProfile};
 use crate::page::Page;
 use crate::progress::ProgressLine;
 use crate::recording::RecordingWatch;
@@ -77,6 +77,8 @@ pub(crate) struct SessionParts {
     pub(crate) ros2: Ros2Connection,
     /// Nodes of each robot.
     pub(crate) estimators: Vec<Estimators>,
+    /// Attachment to Open-RMF.
+    pub(crate) _fleet: Option<OpenRmfFleet>,
     /// Detected topics and frames of the robots, if the estimators needed them.
     pub(crate) profiles: Vec<RobotProfile>,
     pub(crate) services: Services,

@@ -24,6 +24,8 @@ pub(super) struct FleetTask {
     robots: Vec<RobotTask>,
     score: FleetScore,
     next_comparison_ns: i64,
+    /// True if a fleet adapter may send more paths.
+    is_attached: bool,
 }
 
 /// Navigation of a robot.
@@ -87,7 +89,8 @@ impl FleetTask {
         });
         let robots = robots.collect::<Result<Vec<_>, _>>()?;
         let score = FleetScore::new(session.simulation(), Some(map));
-        Ok(Self { robots, score, next_comparison_ns: 0 })
+        let is_attached = options.open_rmf.is_some();
+        Ok(Self { robots, score, next_comparison_ns: 0, is_attached })
     }
 
     /// Ends the run: goals that are not reached yet are unfinished.
@@ -201,6 +204,7 @@ impl SessionTask for FleetTask {
             let navigation = &robot.estimators.navigation;
             robot.goals.spin_once(now_ns, || navigation.obstacle());
         }
-        if self.robots.iter().all(|robot| robot.goals.is_done()) { Tick::End } else { Tick::Go }
+        let is_done = self.robots.iter().all(|robot| robot.goals.is_done());
+        if is_done && !self.is_attached { Tick::End } else { Tick::Go }
     }
 }
