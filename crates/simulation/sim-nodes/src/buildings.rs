@@ -15,7 +15,7 @@ use periplus_diagnostics::{Diagnostic, Diagnostics};
 use periplus_graph::Graph;
 use periplus_scene::{Model, World};
 
-pub use read::Floor;
+pub use read::BuildingFloor;
 
 pub(crate) use motion::MotionLimits;
 
@@ -45,9 +45,9 @@ pub(crate) fn build(
 
 /// Floors that the lifts of the models of a world serve, each once, the lowest first.
 #[must_use]
-pub fn floors_of(world: &World, models: &[&Model]) -> Vec<Floor> {
+pub fn floors_of(world: &World, models: &[&Model]) -> Vec<BuildingFloor> {
     let plan = read::read(world, models, &mut Diagnostics::new());
-    let mut floors: Vec<Floor> =
+    let mut floors: Vec<BuildingFloor> =
         plan.lifts.into_iter().flat_map(|lift| lift.stops).map(|stop| stop.floor).collect();
     floors.sort_by(|a, b| a.elevation_m.total_cmp(&b.elevation_m).then(a.name.cmp(&b.name)));
     floors.dedup_by(|a, b| a.name == b.name);

@@ -8,7 +8,7 @@ use periplus_plugin_specs::PluginSite;
 use periplus_scene as scene;
 use periplus_sensors::Quirks;
 
-use crate::{Floor, ParameterFiles};
+use crate::{BuildingFloor, ParameterFiles};
 
 /// Environment of a device: graph, world, model and run options.
 #[derive(Clone, Copy)]
@@ -46,7 +46,7 @@ pub struct DeviceContext<'a> {
     /// True if `/tf` of Gazebo's plugins is that of ROS; false where the bridges of a launch file leave it out.
     pub bridges_transforms: bool,
     /// Floors of the building, the lowest first.
-    pub floors: &'a [Floor],
+    pub floors: &'a [BuildingFloor],
     /// Parameter files of controllers.
     pub parameter_files: &'a Arc<dyn ParameterFiles>,
 }

@@ -34,7 +34,7 @@ pub mod states;
 mod views;
 
 pub use build::{devices, world_devices};
-pub use buildings::{Floor, floors_of};
+pub use buildings::{BuildingFloor, floors_of};
 pub use control::{NoParameterFiles, ParameterFiles};
 pub use device::{Device, DeviceState, SenseContext, SensorMount, StepInterval};
 pub use device_context::DeviceContext;

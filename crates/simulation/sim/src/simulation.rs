@@ -21,8 +21,8 @@ use periplus_scene as scene;
 use periplus_sensors::Quirks;
 use periplus_sim_nodes::states::ClockPublisher;
 use periplus_sim_nodes::{
-    Device, DeviceContext, Floor, ParameterFiles, SenseContext, SensorMount, StepInterval, Views,
-    floors_of, world_devices,
+    BuildingFloor, Device, DeviceContext, ParameterFiles, SenseContext, SensorMount, StepInterval,
+    Views, floors_of, world_devices,
 };
 
 use crate::actors::RunningActor;
@@ -119,7 +119,7 @@ pub struct Simulation {
     pub(crate) running: Vec<RunningModel>,
     world_devices: Vec<Box<dyn Device>>,
     /// Floors of the building.
-    floors: Vec<Floor>,
+    floors: Vec<BuildingFloor>,
     pub(crate) views: Views,
     /// Actors of the world, which move by their scripts.
     actors: Vec<RunningActor>,

@@ -1,6 +1,7 @@
 //! Doors, lifts and slotcars of Open-RMF's worlds, moved by their topics.
 #![allow(clippy::unwrap_used, clippy::disallowed_methods, reason = "tests")]
 
+use std::f32::consts::PI;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -148,7 +149,7 @@ fn a_lift_carries_a_slotcar_to_another_floor() {
             requested_mode: DoorMode { value: DoorMode::MODE_OPEN },
             ..DoorRequest::default()
         });
-        bench.send_path(&[[0.0, 0.0, 0.0], [10.0, 0.0, 3.14]], "to the lift");
+        bench.send_path(&[[0.0, 0.0, 0.0], [10.0, 0.0, PI]], "to the lift");
         // 10 m at 0.5 m/s, and half a turn.
         bench.run::<RobotState>("/robot_state", 32.0);
         assert!((bench.pose("car").translation.x - 10.0).abs() < 0.05, "{mode:?}");
@@ -169,7 +170,7 @@ fn a_lift_carries_a_slotcar_to_another_floor() {
         assert!((pose.translation.z - 3.0).abs() < 0.05, "{mode:?}: {pose:?}");
         let states: Vec<RobotState> = bench.run("/robot_state", 1.5);
         assert_eq!(states.last().unwrap().location.level_name, "L2", "{mode:?}");
-        bench.send_path(&[[10.0, 0.0, 3.14], [5.0, 0.0, 3.14]], "out");
+        bench.send_path(&[[10.0, 0.0, PI], [5.0, 0.0, PI]], "out");
         bench.run::<RobotState>("/robot_state", 16.0);
         let pose = bench.pose("car");
         assert!((pose.translation.x - 5.0).abs() < 0.05, "{mode:?}: {pose:?}");
@@ -182,7 +183,7 @@ fn a_slotcar_follows_paths_and_reports_its_state() {
     let mut bench = Bench::new(PhysicsMode::Rigid);
     let states: Vec<RobotState> = bench.run("/robot_state", 2.0);
     let first = states.last().unwrap();
-    // It stands at a charger.
+    // It is at a charger.
     assert_eq!(first.mode.mode, RobotMode::MODE_CHARGING);
     assert_eq!((first.name.as_str(), first.location.level_name.as_str()), ("car", "L1"));
     bench.send_path(&[[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 2.0, 1.0]], "one");

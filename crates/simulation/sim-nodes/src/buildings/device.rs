@@ -99,7 +99,7 @@ impl Building {
                             request.requested_mode.value == DoorMode::MODE_OPEN;
                     }
                     Some(_) => {
-                        node.log(Level::Warn, format!("the door `{name}` belongs to a lift"))
+                        node.log(Level::Warn, format!("the door `{name}` belongs to a lift"));
                     }
                     None => node.log(Level::Warn, format!("there is no door `{name}`")),
                 }

@@ -29,7 +29,7 @@ pub(super) struct LiftMotion {
     command: LiftCommand,
     /// True until the command is complete; other requests are ignored meanwhile.
     is_busy: bool,
-    /// Height of the cabin above the ground of the world \[m\].
+    /// Height of the cabin in the world \[m\].
     height_m: f64,
     /// Commanded speed \[m/s\].
     speed_m_s: f64,
@@ -138,7 +138,7 @@ impl Lift {
         }
     }
 
-    /// Moves what stands in the cabin, in a world without contacts.
+    /// Moves the models in the cabin, in a world without contacts.
     fn carry(&self, doors: &[Door], world: &mut PhysicsWorld, rise_m: f64) {
         let lift = world.find_model(self.joint.model());
         let Some((lift, cabin)) = lift.zip(self.spec.cabin) else { return };

@@ -11,12 +11,12 @@ use super::motion::MotionLimits;
 /// Name of a joint that is none.
 const NO_JOINT: &str = "empty_joint";
 
-/// Floor of a building.
+/// BuildingFloor of a building.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Floor {
+pub struct BuildingFloor {
     /// Its name, such as `L1`.
     pub name: String,
-    /// Height of its ground in the world \[m\].
+    /// Height of its surface in the world \[m\].
     pub elevation_m: f64,
 }
 
@@ -76,7 +76,7 @@ pub(super) struct LiftSpec {
 /// Stop of a lift.
 #[derive(Clone, Debug)]
 pub(super) struct LiftStop {
-    pub(super) floor: Floor,
+    pub(super) floor: BuildingFloor,
     /// Indices of its doors in the plan.
     pub(super) doors: Vec<usize>,
 }
@@ -232,7 +232,7 @@ impl Component<'_> {
                 ["cabin_door", "shaft_door"].into_iter().filter_map(|it| pair.value(it))
             });
             doors.push(floor_doors.map(str::to_owned).collect());
-            let floor = Floor { name: name.to_owned(), elevation_m };
+            let floor = BuildingFloor { name: name.to_owned(), elevation_m };
             stops.push(LiftStop { floor, doors: Vec::new() });
         }
         if stops.is_empty() {

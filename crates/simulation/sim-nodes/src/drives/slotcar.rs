@@ -17,7 +17,7 @@ use self::battery::{Battery, BatteryLoad};
 use self::path::{PathFollower, Step};
 use super::build_context::BuildContext;
 use super::rate_timer::{RateTimer, earlier};
-use crate::buildings::{Floor, MotionLimits};
+use crate::buildings::{BuildingFloor, MotionLimits};
 use crate::states::{TF_QOS, transform};
 use crate::{Device, DeviceState, SenseContext, StepInterval};
 
@@ -33,14 +33,14 @@ const MOVING_STEP_NS: i64 = 1_000_000;
 /// Messages that wait.
 const DEPTH: usize = 10;
 
-/// Floor of a building without lifts, by the usual name.
+/// BuildingFloor of a building without lifts, by the usual name.
 const ONLY_FLOOR: &str = "L1";
 
 /// Difference in height within which a robot stands on a floor \[m\].
 const FLOOR_RANGE_M: f64 = 0.1;
 
-/// Speed below which a robot stands \[m/s or rad/s\].
-const STANDING_SPEED: f64 = 0.01;
+/// Speed, and turn rate in rad/s, below which a robot is at rest \[m/s\].
+const STANDING_SPEED_M_S: f64 = 0.01;
 
 /// Drives along the paths of `/robot_path_requests`: to each point, first turning towards it. It stops for requests on
 /// `/robot_pause_requests` and where another model is near its front, and publishes `/robot_state`.
@@ -63,7 +63,7 @@ pub(crate) struct Slotcar {
     stop_distance_m: f64,
     stop_radius_m: f64,
     battery: Battery,
-    floors: Vec<Floor>,
+    floors: Vec<BuildingFloor>,
     state: SlotcarState,
 }
 
@@ -211,7 +211,7 @@ impl Slotcar {
     }
 
     fn floor_at(&self, height_m: f64) -> String {
-        let near = |floor: &&Floor| (floor.elevation_m - height_m).abs() < FLOOR_RANGE_M;
+        let near = |floor: &&BuildingFloor| (floor.elevation_m - height_m).abs() < FLOOR_RANGE_M;
         match self.floors.iter().find(near) {
             Some(floor) => floor.name.clone(),
             None if self.floors.is_empty() => ONLY_FLOOR.to_owned(),
@@ -252,7 +252,7 @@ impl Slotcar {
     }
 
     fn is_standing(&self) -> bool {
-        self.state.speeds.iter().all(|speed| speed.abs() < STANDING_SPEED)
+        self.state.speeds.iter().all(|speed| speed.abs() < STANDING_SPEED_M_S)
     }
 
     /// Activity of the last step; modes that were requested stay.
@@ -311,7 +311,7 @@ impl Device for Slotcar {
         let twist = Twist { x_m_s, y_m_s: 0.0, yaw_rad_s };
         if !world.follow(self.model, twist) {
             let (mut linear, angular) = planar_velocity(pose, twist);
-            // It stands on its floor by its weight, also in a lift.
+            // Its weight keeps it on its floor, also in a lift.
             let link = world.links(self.model).next();
             let motion = link.and_then(|link| world.link_state(link));
             linear.z = motion.map_or(0.0, |motion| motion.linear_m_s.z);

@@ -27,7 +27,7 @@ pub(super) struct PathFollower {
     was_turning: bool,
 }
 
-/// What is left to do.
+/// Remaining motion to the next point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Step {
     /// Distance to drive \[m\]; negative: backwards.
@@ -71,7 +71,7 @@ impl PathFollower {
         self.rest.is_empty() && self.end_yaw_rad.is_none()
     }
 
-    /// What is left to do from a pose; `holds` keeps the robot at the next point.
+    /// Remaining motion from a pose; `holds` keeps the robot at the next point.
     pub(super) fn step(&mut self, pose: Pose2, is_reversible: bool, holds: bool) -> Step {
         while let Some(next) = self.rest.first() {
             let away_m = distance_m(pose, next);
