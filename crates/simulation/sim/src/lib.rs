@@ -78,6 +78,7 @@ pub use periplus_rendering::{
     SensedGeometry, box_corners,
 };
 pub use periplus_sensors::Quirks;
+pub use periplus_sim_nodes::{FleetPathError, fleet_path_from, fleet_point_distance_m};
 pub use photo::{BoundingBox, Photo, PhotoRequest};
 pub use profile::{Work, WorkProfile};
 pub use record::{

@@ -197,16 +197,17 @@ impl Slotcar {
         let yaw_rad = Pose2::from(pose).yaw_rad;
         let ahead = DVec3::new(libm::cos(yaw_rad), libm::sin(yaw_rad), 0.0) * self.stop_distance_m;
         let zone = pose.translation + ahead;
-        // Parts of the building move, too, as in Open-RMF by their names.
-        let is_other = |model: ModelId, name: &str| {
-            let name = name.to_ascii_lowercase();
-            model != self.model
-                && !["door", "lift", "dispensable"].iter().any(|part| name.contains(part))
-                && !world.is_static(model)
-        };
-        world.models().filter(|(model, name)| is_other(*model, name)).any(|(model, _)| {
+        let is_near = |model: ModelId| {
             let pose = world.model_pose(model);
             pose.is_some_and(|it| it.translation.distance(zone) < self.stop_radius_m)
+        };
+        // Parts of the building move, too, as in Open-RMF by their names.
+        let is_part = |name: &str| {
+            let name = name.to_ascii_lowercase();
+            ["door", "lift", "dispensable"].iter().any(|part| name.contains(part))
+        };
+        world.models().any(|(model, name)| {
+            model != self.model && is_near(model) && !is_part(name) && !world.is_static(model)
         })
     }
 

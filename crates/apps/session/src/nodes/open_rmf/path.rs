@@ -2,9 +2,7 @@
 
 use periplus_geometry::Pose2;
 use periplus_msgs::rmf_fleet_msgs::Location;
-
-/// Distance of the first point of a path within which the robot is on it \[m\], as of Open-RMF's slotcar.
-const ON_PATH_M: f64 = 1.0;
+use periplus_sim::{FleetPathError, fleet_path_from, fleet_point_distance_m};
 
 /// Distance at which a point that others follow counts as passed \[m\], the default of Nav2's `RemovePassedGoals`.
 const PASSED_M: f64 = 0.5;
@@ -22,18 +20,8 @@ impl RequestedPath {
     ///
     /// # Errors
     /// When the robot is not there, or a number is not finite.
-    pub(super) fn new(points: &[Location], pose: Pose2) -> Result<Self, String> {
-        let is_finite = |at: &Location| at.x.is_finite() && at.y.is_finite() && at.yaw.is_finite();
-        if !points.iter().all(is_finite) {
-            return Err("a number is not finite".into());
-        }
-        let Some((first, rest)) = points.split_first() else {
-            return Err("it has no points".into());
-        };
-        let away_m = distance_m(pose, first);
-        if away_m > ON_PATH_M {
-            return Err(format!("it begins {away_m:.1} m from the robot"));
-        }
+    pub(super) fn new(points: &[Location], pose: Pose2) -> Result<Self, FleetPathError> {
+        let rest = fleet_path_from(points, pose)?;
         Ok(Self { rest: rest.to_vec(), sent: 0 })
     }
 
@@ -52,14 +40,15 @@ impl RequestedPath {
     pub(super) fn is_held_at(&self, checkpoint: u64, pose: Pose2) -> bool {
         let next = self.rest.first();
         next.is_some_and(|next| {
-            next.index > checkpoint || next.index == checkpoint && distance_m(pose, next) < PASSED_M
+            next.index > checkpoint
+                || next.index == checkpoint && fleet_point_distance_m(pose, next) < PASSED_M
         })
     }
 
     /// Removes points that the robot has passed on its way to others.
     pub(super) fn pass(&mut self, pose: Pose2) {
         while self.sent > 1
-            && self.rest.first().is_some_and(|next| distance_m(pose, next) < PASSED_M)
+            && self.rest.first().is_some_and(|next| fleet_point_distance_m(pose, next) < PASSED_M)
         {
             self.rest.remove(0);
             self.sent -= 1;
@@ -71,10 +60,6 @@ impl RequestedPath {
         self.rest.drain(..self.sent);
         self.sent = 0;
     }
-}
-
-fn distance_m(pose: Pose2, point: &Location) -> f64 {
-    libm::hypot(f64::from(point.x) - pose.x_m, f64::from(point.y) - pose.y_m)
 }
 
 #[cfg(test)]
@@ -114,7 +99,8 @@ mod tests {
     #[test]
     fn impossible_paths_are_refused() {
         let check = |points: &[Location], why: &str| {
-            assert_eq!(RequestedPath::new(points, Pose2::IDENTITY), Err(why.to_owned()));
+            let refused = RequestedPath::new(points, Pose2::IDENTITY);
+            assert_eq!(refused.map_err(|error| error.to_string()), Err(why.to_owned()));
         };
         check(&[], "it has no points");
         check(&[at(4.0, 0)], "it begins 4.0 m from the robot");

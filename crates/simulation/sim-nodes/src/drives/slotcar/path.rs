@@ -3,6 +3,8 @@
 use periplus_geometry::{Pose2, normalize_angle};
 use periplus_msgs::rmf_fleet_msgs::Location;
 
+use crate::{FleetPathError, fleet_path_from, fleet_point_distance_m};
+
 /// Distance from a point at which it is reached \[m\].
 const REACHED_M: f64 = 0.02;
 
@@ -14,9 +16,6 @@ const AHEAD_RAD: f64 = 0.087_266;
 
 /// Error of the heading that counts as none \[rad\].
 const TURNED_RAD: f64 = 0.002;
-
-/// Distance of the first point of a path within which the robot is on it \[m\].
-const ON_PATH_M: f64 = 1.0;
 
 /// Points that are not reached yet.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -42,20 +41,10 @@ impl PathFollower {
     /// Takes a path, whose first point is where the robot is.
     ///
     /// # Errors
-    /// When the robot is not there, or a number is not finite; the former path stays in the messages, but the robot stops.
-    pub(super) fn take(&mut self, path: &[Location], pose: Pose2) -> Result<(), String> {
+    /// When the robot is not there, or a number is not finite: the robot stops.
+    pub(super) fn take(&mut self, path: &[Location], pose: Pose2) -> Result<(), FleetPathError> {
         self.end_yaw_rad = None;
-        let is_finite = |at: &Location| at.x.is_finite() && at.y.is_finite() && at.yaw.is_finite();
-        if !path.iter().all(is_finite) {
-            self.rest.clear();
-            return Err("a number is not finite".into());
-        }
-        let Some((first, rest)) = path.split_first() else { return Ok(()) };
-        let away_m = distance_m(pose, first);
-        if away_m > ON_PATH_M {
-            self.rest.clear();
-            return Err(format!("it begins {away_m:.1} m from the robot"));
-        }
+        let rest = fleet_path_from(path, pose).inspect_err(|_| self.rest.clear())?;
         self.rest = rest.to_vec();
         self.end_yaw_rad = path.last().map(|last| f64::from(last.yaw));
         Ok(())
@@ -74,7 +63,7 @@ impl PathFollower {
     /// Remaining motion from a pose; `holds` keeps the robot at the next point.
     pub(super) fn step(&mut self, pose: Pose2, is_reversible: bool, holds: bool) -> Step {
         while let Some(next) = self.rest.first() {
-            let away_m = distance_m(pose, next);
+            let away_m = fleet_point_distance_m(pose, next);
             let reach_m = if self.was_turning { TURNING_REACHED_M } else { REACHED_M };
             if away_m >= reach_m {
                 break;
@@ -115,10 +104,6 @@ impl PathFollower {
 
 fn turn_to(pose: Pose2, yaw_rad: f64) -> f64 {
     normalize_angle(yaw_rad - pose.yaw_rad)
-}
-
-fn distance_m(pose: Pose2, point: &Location) -> f64 {
-    libm::hypot(f64::from(point.x) - pose.x_m, f64::from(point.y) - pose.y_m)
 }
 
 #[cfg(test)]
@@ -175,7 +160,10 @@ mod tests {
     fn a_path_from_elsewhere_is_refused() {
         let mut follower = PathFollower::default();
         let refused = follower.take(&[at(3.0, 0.0, 0.0), at(4.0, 0.0, 0.0)], Pose2::IDENTITY);
-        assert_eq!(refused, Err("it begins 3.0 m from the robot".to_owned()));
+        assert_eq!(
+            refused.map_err(|why| why.to_string()),
+            Err("it begins 3.0 m from the robot".to_owned())
+        );
         assert!(follower.is_done());
         assert!(follower.take(&[at(f32::NAN, 0.0, 0.0)], Pose2::IDENTITY).is_err());
     }
