@@ -74,3 +74,23 @@ test('a jump back by more than the history clears the buffer', () => {
   put(buffer, 'odom', 'base', 0.5, fromYaw(0, [1, 0, 0]));
   expect(found(buffer, 'odom', 'base').t[0]).toBe(1);
 });
+
+test('a frame is known as long as it has a transform or is the parent of one', () => {
+  const buffer = new TfBuffer();
+  const known = () => ['map', 'odom', 'base'].filter((name) => buffer.has(name));
+  put(buffer, 'odom', 'base', 1, fromYaw(0, [0, 0, 0]));
+  expect(known()).toEqual(['odom', 'base']);
+  const { treeVersion } = buffer;
+  put(buffer, 'odom', 'base', 2, fromYaw(0, [0, 0, 0]));
+  expect(buffer.treeVersion).toBe(treeVersion);
+  // Another parent: the one before is gone, and the names follow.
+  put(buffer, 'map', 'base', 3, fromYaw(0, [0, 0, 0]));
+  expect(known()).toEqual(['map', 'base']);
+  expect(buffer.names()).toEqual(['base', 'map']);
+  expect(buffer.treeVersion).toBe(treeVersion + 1);
+  // Time jumped back to that of the parent before.
+  buffer.rewind(2.5);
+  expect(known()).toEqual(['odom', 'base']);
+  buffer.rewind(0);
+  expect(known()).toEqual([]);
+});

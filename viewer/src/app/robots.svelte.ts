@@ -22,6 +22,8 @@ export class Robots {
   /** Namespace that the user chose; kept while that robot is absent. */
   private wanted: string | undefined = $state();
   private key = '';
+  /** Robot of each topic with messages; they come by the thousand. */
+  private owners = new Map<string, Robot | undefined>();
   /** Subscriptions to the transforms of robots that have separate topics for them. */
   private leave = new Map<string, () => void>();
   /** Roots of trees that the page has put into the simulated world. */
@@ -68,6 +70,7 @@ export class Robots {
     if (key === this.key) return;
     this.key = key;
     this.list = list;
+    this.owners.clear();
     this.followTransforms();
     for (const viewport of this.app.viewports) viewport.robotsChanged();
   }
@@ -94,7 +97,8 @@ export class Robots {
 
   /** Names on this page of frames in messages of a topic; `undefined` where they keep their names. */
   renamed(topic: string): ((frame: string) => string) | undefined {
-    const robot = robotOfTopic(this.list, topic);
+    if (!this.owners.has(topic)) this.owners.set(topic, robotOfTopic(this.list, topic));
+    const robot = this.owners.get(topic);
     return robot?.hasOwnTf ? (frame) => frameHere(robot, frame) : undefined;
   }
 

@@ -33,15 +33,23 @@ export function frameName(name: string): string {
   return name.startsWith('/') ? name.slice(1) : name;
 }
 
+const newestParent = ({ samples }: Frame): string => samples[samples.length - 1]!.parent;
+
 export class TfBuffer {
   private frames = new Map<string, Frame>();
+  /** Number of frames that have a frame as their parent. */
+  private children = new Map<string, number>();
   /** Incremented at each change, for users that cache lookups. */
   version = 0;
+  /** Incremented when a frame appears or is gone, or gets another parent. */
+  treeVersion = 0;
   /** Time that transforms are kept [s]; a recording may show messages that are older. */
   keptS = KEPT_S;
 
   clear(): void {
     this.frames.clear();
+    this.children.clear();
+    this.treeVersion++;
     this.version++;
   }
 
@@ -57,12 +65,26 @@ export class TfBuffer {
     };
     this.version++;
     const frame = this.frames.get(child);
+    const before = frame && newestParent(frame);
     if (!frame || isStatic || frame.isStatic !== isStatic) {
       this.frames.set(child, { isStatic, samples: [sample], receivedMs: nowMs });
+      this.adopt(before, parent);
       return;
     }
     frame.receivedMs = nowMs;
     this.insert(frame, sample);
+    this.adopt(before, newestParent(frame));
+  }
+
+  /** Counts a frame at its new parent instead of the one before. */
+  private adopt(before: string | undefined, now: string | undefined): void {
+    if (before === now) return;
+    this.treeVersion++;
+    if (now !== undefined) this.children.set(now, (this.children.get(now) ?? 0) + 1);
+    if (before === undefined) return;
+    const left = this.children.get(before)! - 1;
+    if (left > 0) this.children.set(before, left);
+    else this.children.delete(before);
   }
 
   private insert(frame: Frame, sample: Sample): void {
@@ -83,29 +105,22 @@ export class TfBuffer {
   rewind(nowS: number): void {
     for (const [name, frame] of this.frames) {
       if (frame.isStatic) continue;
+      const before = newestParent(frame);
       frame.samples = frame.samples.filter((s) => s.timeS <= nowS);
       if (frame.samples.length === 0) this.frames.delete(name);
+      this.adopt(before, frame.samples.length > 0 ? newestParent(frame) : undefined);
     }
     this.version++;
   }
 
   /** Sorted names of all frames. */
   names(): string[] {
-    const all = new Set<string>();
-    for (const [name, frame] of this.frames) {
-      all.add(name);
-      all.add(frame.samples[frame.samples.length - 1]!.parent);
-    }
-    return [...all].sort();
+    return [...new Set([...this.frames.keys(), ...this.children.keys()])].sort();
   }
 
   has(name: string): boolean {
     const wanted = frameName(name);
-    if (this.frames.has(wanted)) return true;
-    for (const frame of this.frames.values()) {
-      if (frame.samples[frame.samples.length - 1]!.parent === wanted) return true;
-    }
-    return false;
+    return this.frames.has(wanted) || this.children.has(wanted);
   }
 
   parentOf(name: string): string | undefined {

@@ -15,6 +15,7 @@ import { WORLD } from '../sim/sensor_frames';
 import { Display, type Kind } from './display';
 import { markerObject } from './marker_shapes';
 import { alpha, bool, choice, topic } from './options';
+import { batch, isBatch } from './world_batches';
 import { t } from '../texts/language.svelte';
 
 /** Error of the estimated pose. */
@@ -39,14 +40,40 @@ const GLASS = 0.14;
 interface Part {
   marker: Marker;
   object: Group;
+  /** Opacity that was set last. */
+  alpha?: number;
+  /** Box around it in the scene, for one pose of its link. */
+  extent?: { sceneFromLink: Matrix4; box: Box3 };
 }
 
 export const modelOf = (frame: string) => frame.split(/::|\//)[0] ?? frame;
 const linkOf = (frame: string) => frame.split(/::|\//).pop() ?? frame;
 
+/** Box around a part in the scene. */
+function extentOf(part: Part): Box3 {
+  const sceneFromLink = part.object.parent!.matrixWorld;
+  if (!part.extent?.sceneFromLink.equals(sceneFromLink)) {
+    const box = new Box3().setFromObject(part.object);
+    part.extent = { sceneFromLink: sceneFromLink.clone(), box };
+  }
+  return part.extent.box;
+}
+
+/** Link of the simulation that exists in TF as well. */
+interface KnownLink {
+  /** Its frame in the simulation. */
+  frame: string;
+  /** Its frame in TF. */
+  link: string;
+}
+
 export class WorldDisplay extends Display {
   private parts = new Map<string, Part>();
   private frames = new Map<string, { holder: Group; worldFromLink: Pose; stampS: number }>();
+  /** Frames with other parts than those in their batches. */
+  private stale = new Set<string>();
+  /** Links in the simulation and in TF, for one state of the tree of transforms. */
+  private known?: { treeVersion: number; links: readonly KnownLink[] };
   private unsubscribePoses?: () => void;
   private anchor?: { fixed: string; fixedFromWorld: Pose };
   private tfVersion = -1;
@@ -100,17 +127,32 @@ export class WorldDisplay extends Display {
       this.context.meshes,
       (why) => {
         if (why) this.host.status('Meshes', 'warn', why);
-        this.context.stage.invalidate();
+        this.loaded(key);
       },
     );
     object.add(made);
     this.holder(marker.header.frame_id).add(object);
     this.parts.set(key, { marker, object });
+    this.stale.add(marker.header.frame_id);
+  }
+
+  /** Mesh or texture of a part is there. */
+  private loaded(key: string): void {
+    const part = this.parts.get(key);
+    if (part) {
+      part.extent = part.alpha = undefined;
+      this.stale.add(part.marker.header.frame_id);
+    }
+    this.seen = '';
+    this.context.stage.invalidate();
   }
 
   private drop(key: string): void {
     const part = this.parts.get(key);
-    if (part) dispose(part.object);
+    if (part) {
+      dispose(part.object);
+      this.stale.add(part.marker.header.frame_id);
+    }
     this.parts.delete(key);
   }
 
@@ -131,6 +173,7 @@ export class WorldDisplay extends Display {
       this.root.add(holder);
       entry = { holder, worldFromLink: { t: [0, 0, 0], q: [0, 0, 0, 1] }, stampS: -1 };
       this.frames.set(frame, entry);
+      this.known = undefined;
     }
     return entry.holder;
   }
@@ -153,6 +196,7 @@ export class WorldDisplay extends Display {
       if (now.has(name) || stampS < 0 || holder.children.length > 0) continue;
       dispose(holder);
       this.frames.delete(name);
+      this.known = undefined;
     }
     this.compare();
     this.context.stage.invalidate();
@@ -205,7 +249,7 @@ export class WorldDisplay extends Display {
     for (const holder of this.holders(model)) {
       holder.traverse((part) => {
         const { geometry } = part as Mesh;
-        if (!geometry?.getAttribute?.('position')) return;
+        if (!geometry?.getAttribute?.('position') || isBatch(part)) return;
         if (!geometry.boundingBox) geometry.computeBoundingBox();
         worldFromPart.multiplyMatrices(worldFromScene, part.matrixWorld);
         own.copy(geometry.boundingBox!).applyMatrix4(worldFromPart);
@@ -243,8 +287,16 @@ export class WorldDisplay extends Display {
     return this.anchor?.fixedFromWorld ?? { t: [0, 0, 0], q: [0, 0, 0, 1] };
   }
 
-  /** Links of the robot that exist in TF as well. */
-  private common(): { frame: string; link: string }[] {
+  /** Links of the robot that exist in TF as well, the base first. */
+  private common(): readonly KnownLink[] {
+    const { tf } = this.context;
+    if (this.known?.treeVersion !== tf.treeVersion) {
+      this.known = { treeVersion: tf.treeVersion, links: this.findCommon() };
+    }
+    return this.known.links;
+  }
+
+  private findCommon(): KnownLink[] {
     const { tf } = this.context;
     const parts = [...this.frames.keys()].filter((frame) => frame !== modelOf(frame));
     // Frames of one of several robots have its name in front.
@@ -356,14 +408,17 @@ export class WorldDisplay extends Display {
     if (key === this.seen && this.seenParts === this.parts.size) return;
     this.seen = key;
     this.seenParts = this.parts.size;
-    const box = new Box3();
     this.root.updateMatrixWorld(true);
-    for (const { object, marker } of this.parts.values()) {
-      box.setFromObject(object);
+    for (const part of this.parts.values()) {
+      const { object, marker } = part;
+      const box = extentOf(part);
       const isTall = box.max.z > TALL_M;
       const middle = box.getCenter(new Vector3()).sub(focal).setZ(0);
       const isGlass = isOn && isTall && middle.dot(eye) > NEAR_M;
       const alpha = (marker.color.a || 1) * this.get<number>('Alpha') * (isGlass ? GLASS : 1);
+      if (part.alpha === alpha) continue;
+      part.alpha = alpha;
+      this.stale.add(marker.header.frame_id);
       object.traverse((part) => {
         for (const one of (part as Mesh).material ? [(part as Mesh).material].flat() : []) {
           fade(one, alpha);
@@ -372,8 +427,25 @@ export class WorldDisplay extends Display {
     }
   }
 
+  /** Puts parts that have changed into other batches. */
+  private rebatch(): void {
+    if (this.stale.size === 0) return;
+    const parts = new Map<string, Group[]>();
+    for (const { marker, object } of this.parts.values()) {
+      const frame = marker.header.frame_id;
+      if (this.stale.has(frame)) parts.set(frame, [...(parts.get(frame) ?? []), object]);
+    }
+    for (const frame of this.stale) {
+      const entry = this.frames.get(frame);
+      if (entry) batch(entry.holder, parts.get(frame) ?? []);
+    }
+    this.stale.clear();
+    this.context.stage.invalidate();
+  }
+
   override tick(): void {
     this.seeInside();
+    this.rebatch();
     if (this.context.tf.version === this.tfVersion || this.anchor) return;
     this.tfVersion = this.context.tf.version;
     this.compare();
@@ -394,7 +466,9 @@ export class WorldDisplay extends Display {
   override clear(): void {
     this.empty();
     this.parts.clear();
+    this.stale.clear();
     this.frames.clear();
+    this.known = undefined;
     this.held.clear();
     this.anchor = undefined;
     this.truth = undefined;
