@@ -203,15 +203,18 @@ impl Person {
         self.blocked_s.max(self.still_s)
     }
 
-    /// Radius of the body; blocked people turn sideways \[m\].
+    /// Radius of the body; people who are blocked, or come no farther for long, turn sideways \[m\].
     pub(crate) fn body_radius_m(&self) -> f64 {
         /// Time without progress after which people begin to turn sideways \[s\].
         const TURN_AFTER_S: f64 = 2.0;
+        /// Additional time of people that move and yet come no farther \[s\].
+        const DELAY_S: f64 = 2.0;
         /// Time of the turn \[s\].
         const TURN_S: f64 = 2.0;
         /// Radius of a body that has turned, as a part of the whole: half of a chest of 0.26 m.
         const TURNED_RATIO: f64 = 0.65;
-        let turned = ((self.blocked_s - TURN_AFTER_S) / TURN_S).clamp(0.0, 1.0);
+        let blocked_s = self.blocked_s.max(self.still_s - DELAY_S);
+        let turned = ((blocked_s - TURN_AFTER_S) / TURN_S).clamp(0.0, 1.0);
         self.settings.radius_m * (1.0 - (1.0 - TURNED_RATIO) * turned)
     }
 }

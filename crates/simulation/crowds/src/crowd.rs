@@ -2,6 +2,7 @@
 
 mod behaviour;
 mod contacts;
+mod jams;
 mod sight;
 
 use std::sync::Arc;

@@ -23,6 +23,9 @@ const LOOKAHEAD_M: f64 = 4.0;
 /// A line to the next point keeps this distance to walls, unless the agent is nearer already \[m\].
 const LINE_CLEARANCE_M: f64 = 0.25;
 
+/// Distance along the path that an agent goes even where it touches a corner \[m\].
+const MIN_STEP_M: f64 = 0.45;
+
 /// Steps from a cell that is too narrow to one that is not.
 const ESCAPE_CELLS: usize = 4;
 
@@ -76,8 +79,8 @@ impl Route {
     }
 
     /// Cost from a point, from the next passable cell where the point is in a narrow one \[m\]; none without a path.
-    pub(crate) fn cost_m(&self, point: DVec2) -> Option<f64> {
-        let cell = self.passable_near(point)?;
+    pub(crate) fn cost_m(&self, floor: &Floor, point: DVec2) -> Option<f64> {
+        let cell = self.passable_near(floor, point)?;
         Some(f64::from(self.cost_m[cell]))
     }
 
@@ -85,10 +88,12 @@ impl Route {
     /// none without a path.
     pub(crate) fn next_point(&self, floor: &Floor, from: DVec2) -> Option<DVec2> {
         let info = self.cost_m.info;
-        let start = self.passable_near(from)?;
+        let start = self.passable_near(floor, from)?;
         let mut cell = start;
         let mut visible: DVec2 = info.centre_of(start).into();
         let mut before = visible;
+        // Along the path while nothing is visible, as for a person that touches a corner.
+        let mut step = None;
         let mut walked_m = 0.0;
         while walked_m < LOOKAHEAD_M {
             if self.cost_m[cell] == 0.0 {
@@ -108,16 +113,23 @@ impl Route {
             cell = next;
             walked_m += length_m;
             let point = info.centre_of(cell).into();
-            if !is_line_free(floor, from, point) {
+            if is_line_free(floor, from, point) {
+                (before, visible) = (visible, point);
+            } else if before == visible && walked_m < MIN_STEP_M && !floor.walls.blocks(from, point)
+            {
+                step = Some(point);
+            } else {
                 break;
             }
-            (before, visible) = (visible, point);
         }
-        Some(in_own_layer(floor, from, before, visible))
+        match step {
+            Some(step) if before == visible => Some(step),
+            _ => Some(in_own_layer(floor, from, before, visible)),
+        }
     }
 
     /// The cell of a point, or the nearest cell with a path that no wall separates from it.
-    fn passable_near(&self, point: DVec2) -> Option<Cell> {
+    fn passable_near(&self, floor: &Floor, point: DVec2) -> Option<Cell> {
         let info = self.cost_m.info;
         let (column, row) = info.cell_of(point.x, point.y)?;
         if self.cost_m[(column, row)].is_finite() {
@@ -130,9 +142,11 @@ impl Route {
         for row in range(row, info.height) {
             for column in range(column, info.width) {
                 let cell = (column, row);
-                let distance_m = DVec2::from(info.centre_of(cell)).distance(point);
+                let centre = DVec2::from(info.centre_of(cell));
+                let distance_m = centre.distance(point);
                 let is_nearer = best.is_none_or(|(best_m, _)| distance_m < best_m);
-                if is_nearer && self.cost_m[cell].is_finite() {
+                if is_nearer && self.cost_m[cell].is_finite() && !floor.walls.blocks(point, centre)
+                {
                     best = Some((distance_m, cell));
                 }
             }
@@ -251,8 +265,39 @@ mod tests {
         let goal = DVec2::new(3.0, 6.0);
         let route = Route::new(&floor, goal, 0.3).unwrap();
         assert_eq!(route.next_point(&floor, DVec2::new(2.0, 5.0)), Some(goal));
-        let cost_m = route.cost_m(DVec2::new(2.0, 6.0)).unwrap();
+        let cost_m = route.cost_m(&floor, DVec2::new(2.0, 6.0)).unwrap();
         assert!((0.6..1.2).contains(&cost_m), "{cost_m}");
+    }
+
+    #[test]
+    fn one_who_touches_a_door_post_is_led_past_it() {
+        let floor = two_rooms();
+        let route = Route::new(&floor, DVec2::new(9.0, 2.0), 0.3).unwrap();
+        let mut from = DVec2::new(4.85, 2.5);
+        while from.y < 3.5 {
+            let target = route.next_point(&floor, from).unwrap();
+            let gain_m =
+                route.cost_m(&floor, from).unwrap() - route.cost_m(&floor, target).unwrap();
+            assert!(gain_m > 0.2 && target.distance(from) > 0.2, "{from} {target} {gain_m}");
+            from.y += 0.05;
+        }
+    }
+
+    #[test]
+    fn one_in_a_corner_is_not_led_through_the_wall() {
+        let mut walls = Wall::rectangle([0.0, 0.0], [10.0, 8.0]).to_vec();
+        walls.push(Wall::new([5.0, 1.0], [5.0, 8.0]));
+        let floor = Floor::new(walls).unwrap();
+        let route = Route::new(&floor, DVec2::new(8.0, 7.0), 0.3).unwrap();
+        let mut distance_m = 0.13;
+        while distance_m < 0.25 {
+            let from = DVec2::new(5.0 - distance_m, 8.0 - distance_m);
+            let target = route.next_point(&floor, from).unwrap();
+            assert!(!floor.walls.blocks(from, target), "{from} {target}");
+            // Along the wall to its end: 6 m and 7 m more.
+            assert!(route.cost_m(&floor, from).unwrap() > 12.0);
+            distance_m += 0.01;
+        }
     }
 
     #[test]
@@ -261,7 +306,7 @@ mod tests {
         walls.extend(Wall::rectangle([4.0, 4.0], [6.0, 6.0]));
         let floor = Floor::new(walls).unwrap();
         let route = Route::new(&floor, DVec2::new(5.0, 5.0), 0.3).unwrap();
-        assert_eq!(route.cost_m(DVec2::new(1.0, 1.0)), None);
+        assert_eq!(route.cost_m(&floor, DVec2::new(1.0, 1.0)), None);
         assert!(Route::new(&floor, DVec2::new(0.0, 4.0), 0.05).is_none());
     }
 }

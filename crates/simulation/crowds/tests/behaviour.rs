@@ -118,6 +118,28 @@ fn one_who_stands_steps_aside_for_a_robot() {
 }
 
 #[test]
+fn people_turn_round_where_a_door_is_blocked() {
+    for name in SteeringModel::NAMES {
+        let mut crowd = rooms(name);
+        for x in [1.5, 8.5] {
+            crowd.add_goal(PersonGoal::at(DVec2::new(x, 2.0))).unwrap();
+        }
+        let agent = crowd.add_agent(at(2.0, 2.0), PersonPlan::Wander).unwrap();
+        let robot = MovingObstacle::disc(DVec2::new(5.0, 2.0), 0.45, DVec2::ZERO);
+        let (mut longest_still_s, mut is_back) = (0.0_f64, false);
+        while crowd.time_s() < 30.0 {
+            crowd.set_obstacles(vec![robot]);
+            crowd.step(0.1);
+            let person = crowd.agent(agent);
+            longest_still_s = longest_still_s.max(person.still_s());
+            is_back |= crowd.time_s() > 10.0 && person.position().x < 2.2;
+        }
+        // 3 s until it gives up, and the time in which it turns.
+        assert!(is_back && longest_still_s < 5.0, "{name}: {longest_still_s} s");
+    }
+}
+
+#[test]
 fn wrong_numbers_are_refused() {
     let mut crowd = rooms("orca");
     let refused = crowd.add_agent(at(f64::NAN, 1.0), PersonPlan::Stand);

@@ -7,7 +7,7 @@
 
 use periplus_crowds::{
     Crowd, CrowdError, CrowdSettings, DVec2, Floor, MovingObstacle, PersonGoal, PersonGoalId,
-    PersonPlan, PersonSettings, SteeringModel, Wall,
+    PersonPlan, PersonSettings, PersonState, SteeringModel, Wall,
 };
 use periplus_geometry::Stream;
 
@@ -105,6 +105,7 @@ fn run(
         .collect();
     let (mut longest_still_s, mut nearest_robot_m) = (0.0_f64, f64::INFINITY);
     let (mut speeds, mut samples, mut freezes) = (0.0, 0.0, 0);
+    let (mut goals_reached, mut states) = (0, vec![PersonState::Walking; people]);
     while crowd.time_s() < duration_s {
         for driver in &mut drivers {
             driver.step(&crowd, 0.1);
@@ -115,10 +116,13 @@ fn run(
         };
         crowd.set_obstacles(drivers.iter().map(obstacle).collect());
         crowd.step(0.1);
-        for agent in crowd.agents() {
+        for (agent, before) in crowd.agents().iter().zip(&mut states) {
+            let is_there = agent.state() == PersonState::Waiting;
+            goals_reached += usize::from(is_there && *before != PersonState::Waiting);
+            *before = agent.state();
             longest_still_s = longest_still_s.max(agent.still_s());
             freezes += usize::from((10.0..10.1).contains(&agent.still_s()));
-            if agent.state() == periplus_crowds::PersonState::Walking {
+            if agent.state() == PersonState::Walking {
                 speeds += agent.velocity().length();
                 samples += 1.0;
             }
@@ -127,8 +131,6 @@ fn run(
             }
         }
     }
-    let goals_reached =
-        (0..people).map(|agent| crowd.visits(periplus_crowds::PersonId(agent))).sum();
     let positions = crowd.agents().iter().map(|agent| agent.position()).collect();
     (
         Outcome {

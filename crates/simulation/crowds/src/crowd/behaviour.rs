@@ -15,26 +15,11 @@ const APPROACH_TIME_S: f64 = 0.5;
 /// Speed below this part of the preferred one counts as blocked.
 const BLOCKED_RATIO: f64 = 0.05;
 
-/// Time without progress after which people try to pass at the side \[s\].
-const SIDESTEP_AFTER_S: f64 = 3.0;
+/// Time without progress after which wandering people choose another goal, away from where they cannot get on \[s\].
+const GIVE_UP_AFTER_S: f64 = 3.0;
 
-/// Time for one try \[s\].
-const SIDESTEP_S: f64 = 1.5;
-
-/// Time for which one direction has priority in a deadlock \[s\].
-const PRIORITY_S: f64 = 2.5;
-
-/// Time without progress after which people squeeze through without priority \[s\].
-const MAX_PATIENCE_S: f64 = 6.0;
-
-/// Range of the angles of a try at the side, beyond half a radian \[rad\].
-const SIDESTEP_RAD: f64 = 1.0;
-
-/// Smallest and largest angle to the right at which people give way: aside and back \[rad\].
-const GIVE_WAY_RAD: [f64; 2] = [1.4, 2.6];
-
-/// Time without progress after which wandering people choose another goal \[s\].
-const GIVE_UP_AFTER_S: f64 = 8.0;
+/// Time for which wandering people keep to a goal \[s\].
+const MIN_TRY_S: f64 = 4.0;
 
 /// A goal that others occupy counts as reached within this additional distance \[m\].
 const OCCUPIED_RANGE_M: f64 = 1.5;
@@ -45,22 +30,19 @@ const QUEUE_GAP_M: f64 = 0.7;
 /// Distance from a closed door within which people queue \[m\].
 const QUEUE_RANGE_M: f64 = 4.0;
 
-/// Sway of the direction that breaks symmetric encounters \[rad\].
-const SWAY_RAD: f64 = 0.05;
-
 impl Crowd {
     /// Starts the plan of a group.
     pub(super) fn start(&mut self, group: usize) {
         let phase = match self.parties[group].plan {
             PersonPlan::Stand => Phase::Done,
             PersonPlan::Direction(_) => Phase::Walking(None),
-            PersonPlan::Visit { .. } | PersonPlan::Wander => self.next_phase(group),
+            PersonPlan::Visit { .. } | PersonPlan::Wander => self.next_phase(group, None),
         };
         self.parties[group].phase = phase;
     }
 
-    /// Chooses the next goal of a group.
-    fn next_phase(&mut self, group: usize) -> Phase {
+    /// Chooses the next goal of a group, one that leads away from a direction if it is blocked there.
+    fn next_phase(&mut self, group: usize, blocked: Option<DVec2>) -> Phase {
         let Party { members, plan, visits, .. } = &self.parties[group];
         let visit = *visits;
         let goal = match plan {
@@ -74,8 +56,8 @@ impl Crowd {
                 number.map(|number| goals[number])
             }
             PersonPlan::Wander => {
-                let from = members.first().map(|member| self.agents[*member].position);
-                self.random_goal(group, visit, from)
+                let first = members.first().map(|member| self.agents[*member].position);
+                first.and_then(|from| self.random_goal(group, visit, from, blocked))
             }
             PersonPlan::Stand | PersonPlan::Direction(_) => None,
         };
@@ -88,16 +70,32 @@ impl Crowd {
         goal.map_or(Phase::Done, |goal| Phase::Walking(Some(goal)))
     }
 
-    /// Goal that can be reached from a position and is not there, drawn by the group's number and visit.
-    fn random_goal(&self, group: usize, visit: u64, from: Option<DVec2>) -> Option<PersonGoalId> {
-        let from = from?;
-        let reachable: Vec<usize> = (0..self.goals.len())
+    /// Goal that can be reached from a position and is not there, drawn by the group's number and visit. After a blocked
+    /// direction it is one to which another leads, if there is any: people turn round where they cannot get on,
+    /// as at a full doorway.
+    fn random_goal(
+        &self,
+        group: usize,
+        visit: u64,
+        from: DVec2,
+        blocked: Option<DVec2>,
+    ) -> Option<PersonGoalId> {
+        let mut reachable: Vec<usize> = (0..self.goals.len())
             .filter(|goal| {
                 let record = &self.goals[*goal];
                 let is_there = record.goal.centre.distance(from) <= record.goal.radius_m + 0.5;
-                !is_there && record.route.cost_m(from).is_some()
+                !is_there && record.route.cost_m(&self.floor, from).is_some()
             })
             .collect();
+        if let Some(blocked) = blocked {
+            let leads_away = |goal: &usize| {
+                let next = self.goals[*goal].route.next_point(&self.floor, from);
+                next.is_some_and(|next| (next - from).dot(blocked) < 0.0)
+            };
+            if reachable.iter().any(leads_away) {
+                reachable.retain(leads_away);
+            }
+        }
         if reachable.is_empty() {
             return None;
         }
@@ -135,10 +133,13 @@ impl Crowd {
                     self.parties[group].phase = Phase::Staying(goal, until_s);
                 }
                 Phase::Walking(Some(_)) if self.gives_up(group) => {
-                    self.parties[group].phase = self.next_phase(group);
+                    let first = self.parties[group].members.first();
+                    let first = first.map(|member| &self.agents[*member]);
+                    let blocked = first.and_then(|first| Some(first.target? - first.position));
+                    self.parties[group].phase = self.next_phase(group, blocked);
                 }
                 Phase::Staying(_, until_s) if self.time_s >= until_s => {
-                    self.parties[group].phase = self.next_phase(group);
+                    self.parties[group].phase = self.next_phase(group, None);
                 }
                 Phase::Walking(_) | Phase::Staying(..) | Phase::Done => {}
             }
@@ -146,6 +147,7 @@ impl Crowd {
         for number in 0..self.agents.len() {
             self.decide_agent(number, step_s);
         }
+        self.make_room();
     }
 
     /// True once all members of a group are at the goal.
@@ -167,10 +169,10 @@ impl Crowd {
     fn gives_up(&self, group: usize) -> bool {
         let party = &self.parties[group];
         party.plan == PersonPlan::Wander
+            && self.time_s - party.chosen_at_s > MIN_TRY_S
             && party.members.iter().any(|member| {
                 let agent = &self.agents[*member];
-                let tried_s = self.time_s - party.chosen_at_s;
-                agent.blocked_s.max(agent.still_s).min(tried_s) > GIVE_UP_AFTER_S
+                agent.without_progress_s() > GIVE_UP_AFTER_S
             })
     }
 
@@ -259,57 +261,14 @@ impl Crowd {
                 && offset.dot(direction) > 0.5 * offset.length()
         })
     }
-
-    /// Angle by which an agent's direction is turned: a little sway, tries to pass at the side where it is blocked, and
-    /// steps aside and back where it gives way.
-    fn sway(&self, number: usize, state: PersonState, preferred: DVec2) -> f64 {
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "not negative")]
-        let second = self.time_s as u64;
-        let draw = |name: &str, count: u64| {
-            Stream::keyed(self.settings.seed, name, key(number, count)).unit()
-        };
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "not negative")]
-        let tries = (self.time_s / SIDESTEP_S) as u64;
-        if state != PersonState::Walking
-            || self.agents[number].without_progress_s() < self.settings.model.deadlock_after_s()
-        {
-            return SWAY_RAD * (2.0 * draw("crowd sway", second) - 1.0);
-        }
-        if self.is_in_deadlock(number) && !self.may_squeeze(number, preferred) {
-            let [low_rad, high_rad] = GIVE_WAY_RAD;
-            return -(low_rad + (high_rad - low_rad) * draw("crowd give way", tries));
-        }
-        if self.agents[number].without_progress_s() < SIDESTEP_AFTER_S {
-            return SWAY_RAD * (2.0 * draw("crowd sway", second) - 1.0);
-        }
-        let angle_rad = 0.5 + SIDESTEP_RAD * draw("crowd sidestep", 2 * tries);
-        if draw("crowd sidestep", 2 * tries + 1) < 0.6 { -angle_rad } else { angle_rad }
-    }
-
-    /// True if an agent has not got on for a while because another was in front of it.
-    pub(super) fn is_in_deadlock(&self, number: usize) -> bool {
-        let agent = &self.agents[number];
-        agent.opposed_s > 0.0 && agent.without_progress_s() > self.settings.model.deadlock_after_s()
-    }
-
-    /// True if an agent that would walk in a direction squeezes through in a deadlock. The four directions of the plane
-    /// take turns, so that all people of one direction get on together while the others make room; the patience of
-    /// those that make room ends at last.
-    pub(super) fn may_squeeze(&self, number: usize, direction: DVec2) -> bool {
-        const TURNS: [DVec2; 4] = [DVec2::X, DVec2::Y, DVec2::NEG_X, DVec2::NEG_Y];
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "not negative")]
-        let turn = (self.time_s / PRIORITY_S) as usize % TURNS.len();
-        direction.dot(TURNS[turn]) > 0.0
-            || self.agents[number].without_progress_s() > MAX_PATIENCE_S
-    }
 }
 
 /// Number of a random stream from two numbers.
-fn key(first: usize, second: u64) -> u64 {
+pub(super) fn key(first: usize, second: u64) -> u64 {
     ((first as u64) << 40) ^ second
 }
 
-fn rotate(vector: DVec2, angle_rad: f64) -> DVec2 {
+pub(super) fn rotate(vector: DVec2, angle_rad: f64) -> DVec2 {
     let (sine, cosine) = libm::sincos(angle_rad);
     DVec2::new(cosine * vector.x - sine * vector.y, sine * vector.x + cosine * vector.y)
 }
