@@ -8,7 +8,6 @@ import { instances, surface, UNIT_BOX, UNIT_CYLINDER, UNIT_SPHERE } from '../sce
 import { dispose } from '../scene/stage';
 
 const SHAPES = [UNIT_BOX, UNIT_CYLINDER, UNIT_SPHERE] as const;
-const OPAQUE = 0.999;
 
 type Solid = Mesh<(typeof SHAPES)[number], MeshLambertMaterial>;
 
@@ -19,8 +18,8 @@ function solidOf(part: Group): Solid | undefined {
   const [mesh, ...more] = part.children;
   if (!(mesh instanceof Mesh) || mesh instanceof InstancedMesh || more.length > 0) return undefined;
   const solid = mesh as Solid;
-  const { map, opacity } = solid.material;
-  return SHAPES.includes(solid.geometry) && !map && opacity >= OPAQUE ? solid : undefined;
+  const { map, transparent } = solid.material;
+  return SHAPES.includes(solid.geometry) && !map && !transparent ? solid : undefined;
 }
 
 /** Draws the parts of a holder in batches where it can, and hides those; removes the batches that were there. */

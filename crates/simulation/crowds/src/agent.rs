@@ -168,7 +168,7 @@ impl Person {
         self.velocity
     }
 
-    /// Velocity with which the agent would walk without others; zero while it waits \[m/s\].
+    /// Velocity with which the agent would walk without others; zero while it waits and does not make room \[m/s\].
     #[must_use]
     pub fn preferred_velocity(&self) -> DVec2 {
         self.preferred
